@@ -16,10 +16,11 @@
 #include "theory/theory.h"
 
 static const char *const type_names[] = {
-    [GG_FIELD_NUMBER] = "number",   [GG_FIELD_INTEGER] = "integer", [GG_FIELD_CHOICE] = "choice",
-    [GG_FIELD_SET] = "set",         [GG_FIELD_PAIRS] = "pairs",     [GG_FIELD_ERRORS] = "errors",
-    [GG_FIELD_VECTOR] = "vector",   [GG_FIELD_ENDS] = "ends",       [GG_FIELD_FILE] = "file",
-    [GG_FIELD_CHANGES] = "changes", [GG_FIELD_SPECIES] = "species", [GG_FIELD_LIST] = "list"};
+    [GG_FIELD_NUMBER] = "number", [GG_FIELD_INTEGER] = "integer", [GG_FIELD_CHOICE] = "choice",
+    [GG_FIELD_SET] = "set",       [GG_FIELD_PAIRS] = "pairs",     [GG_FIELD_ERRORS] = "errors",
+    [GG_FIELD_VECTOR] = "vector", [GG_FIELD_ENDS] = "ends",       [GG_FIELD_FILE] = "file",
+    [GG_FIELD_RATE] = "rate",     [GG_FIELD_CHANGES] = "changes", [GG_FIELD_SPECIES] = "species",
+    [GG_FIELD_LIST] = "list"};
 
 static gg_status no_more(gg_error *err)
 {

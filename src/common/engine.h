@@ -154,6 +154,9 @@ typedef struct gg_engine_ops {
   /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin the next sweep of a
    * linear response (linear_response.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
   gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);
+  /* Continue with another shear rate, also 0 or below; peculiar velocities and spins stay. GG_BAD_INPUT in flows that
+   * are not sheared. */
+  gg_status (*shear)(gg_engine *engine, double rate, gg_error *err);
   /* Everything needed to continue bit for bit. Saving does not disturb the run. */
   gg_status (*save)(const gg_engine *engine, gg_archive *archive, gg_error *err);
   gg_status (*restore)(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);

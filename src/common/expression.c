@@ -15,16 +15,16 @@ typedef struct function {
   double (*of_two)(double, double); /* NULL: of one */
 } function;
 
-static const function functions[] = {{"ln", gg_portable_ln, NULL},
-                                     {"log10", gg_portable_log10, NULL},
-                                     {"exp", gg_portable_exp, NULL},
+static const function functions[] = {{"ln", gg_common_portable_ln, NULL},
+                                     {"log10", gg_common_portable_log10, NULL},
+                                     {"exp", gg_common_portable_exp, NULL},
                                      {"sqrt", sqrt, NULL},
                                      {"abs", fabs, NULL},
-                                     {"sin", gg_portable_sin, NULL},
-                                     {"cos", gg_portable_cos, NULL},
-                                     {"atan", gg_portable_atan, NULL},
-                                     {"tanh", gg_portable_tanh, NULL},
-                                     {"erf", gg_portable_erf, NULL},
+                                     {"sin", gg_common_portable_sin, NULL},
+                                     {"cos", gg_common_portable_cos, NULL},
+                                     {"atan", gg_common_portable_atan, NULL},
+                                     {"tanh", gg_common_portable_tanh, NULL},
+                                     {"erf", gg_common_portable_erf, NULL},
                                      {"min", NULL, fmin},
                                      {"max", NULL, fmax},
                                      {NULL, NULL, NULL}};
@@ -222,7 +222,7 @@ static double combine(char code, double a, double b)
   case 'l': return a <= b;
   case 'g': return a >= b;
   case '=': return a == b;
-  default: return gg_portable_pow(a, b);
+  default: return gg_common_portable_pow(a, b);
   }
 }
 

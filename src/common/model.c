@@ -209,7 +209,7 @@ static double guess_sheared_temperature(const gg_model *m)
   double loss = fmax(1 - e * e + 0.5 * rough, 0.01);
   double freq = m->density * m->chi[0]; /* n d^2 chi */
   double dilute = 0.4 / (loss * freq * freq), dense = 0.4 / loss;
-  return (m->boltzmann ? dilute : dilute + dense) * (m->shear_rate > 0 ? m->shear_rate * m->shear_rate : 1);
+  return (m->boltzmann ? dilute : dilute + dense) * (m->shear_rate != 0 ? m->shear_rate * m->shear_rate : 1);
 }
 
 /* Temperature of a gas that thermal walls alone warm and nothing cools: the geometric mean of theirs, at which free

@@ -77,7 +77,7 @@ typedef struct gg_model {
   double phi, density;   /* density: n d_1^3, 1 in the Boltzmann limit */
   double box[3], volume; /* edges, volume = n/density */
   double length;         /* cube root of the volume; between walls of that in md, whatever the ensemble's size */
-  double shear_rate;     /* 1 if sheared, until it changes on the way; else 0 */
+  double shear_rate;     /* 1 if sheared, until it changes on the way, also to 0 or below; else 0 */
   double gravity[3];
   gg_bath bath;
 
@@ -125,6 +125,12 @@ typedef struct gg_model {
 static inline bool gg_model_keeps_temperature(const gg_model *model)
 {
   return model->steady && !gg_flow_cools(model->flow);
+}
+
+/* True if the flow is sheared. The rate may be 0 at times, in a box whose images keep an offset. */
+static inline bool gg_model_is_sheared(const gg_model *m)
+{
+  return gg_flow_is_sheared(m->flow);
 }
 
 /* x n_i/n, of whole numbers of grains without the rounding of the fraction. */

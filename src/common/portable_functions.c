@@ -11,7 +11,7 @@ static const double ln2[2] = {0x1.62e42fefap-1, 0x1.cf79abc9e3b3ap-40};
 static const double half_pi[2] = {0x1.921fb544p+0, 0x1.0b4611a626331p-34};
 
 /* Taylor's series of a rest of at most ln(2)/2, times a power of two. */
-double gg_portable_exp(double x)
+double gg_common_portable_exp(double x)
 {
   if (isnan(x)) return x;
   if (x > 709.7) return INFINITY;
@@ -23,7 +23,7 @@ double gg_portable_exp(double x)
 }
 
 /* ln m = 2 artanh((m - 1)/(m + 1)), m from sqrt(1/2) to sqrt(2). */
-double gg_portable_ln(double x)
+double gg_common_portable_ln(double x)
 {
   int k;
   if (!(x > 0)) return x == 0 ? -INFINITY : NAN;
@@ -36,9 +36,9 @@ double gg_portable_ln(double x)
   return k * ln2[0] + (2 * s + (2 * s * sum + k * ln2[1]));
 }
 
-double gg_portable_log10(double x)
+double gg_common_portable_log10(double x)
 {
-  return gg_portable_ln(x) / gg_portable_ln(10);
+  return gg_common_portable_ln(x) / gg_common_portable_ln(10);
 }
 
 static bool is_odd(double whole)
@@ -46,14 +46,14 @@ static bool is_odd(double whole)
   return fmod(whole, 2) != 0;
 }
 
-double gg_portable_pow(double a, double b)
+double gg_common_portable_pow(double a, double b)
 {
   const bool whole = b == floor(b);
   if (b == 0 || a == 1) return 1;
   if (isnan(a) || isnan(b) || (a < 0 && !whole)) return NAN;
   if (whole && fabs(b) <= 64) return b > 0 ? gg_power(a, (int)b) : 1 / gg_power(a, (int)-b);
   if (b == 0.5) return sqrt(a);
-  const double size = gg_portable_exp(b * gg_portable_ln(fabs(a)));
+  const double size = gg_common_portable_exp(b * gg_common_portable_ln(fabs(a)));
   return a < 0 && is_odd(b) ? -size : size;
 }
 
@@ -70,21 +70,21 @@ static double sine(double x, double quarters)
   return quarter < 2 ? sum : -sum;
 }
 
-double gg_portable_sin(double x)
+double gg_common_portable_sin(double x)
 {
   return sine(x, 0);
 }
 
-double gg_portable_cos(double x)
+double gg_common_portable_cos(double x)
 {
   return sine(x, 1);
 }
 
 /* The angle halved twice, then its series. */
-double gg_portable_atan(double x)
+double gg_common_portable_atan(double x)
 {
   if (isnan(x)) return x;
-  if (fabs(x) > 1) return copysign(half_pi[0] + half_pi[1], x) - gg_portable_atan(1 / x);
+  if (fabs(x) > 1) return copysign(half_pi[0] + half_pi[1], x) - gg_common_portable_atan(1 / x);
   double y = x / (1 + sqrt(1 + x * x));
   y = y / (1 + sqrt(1 + y * y));
   const double y2 = y * y;
@@ -94,21 +94,21 @@ double gg_portable_atan(double x)
 }
 
 /* Near 0 the continued fraction x/(1 + x^2/(3 + x^2/(5 + ...))). */
-double gg_portable_tanh(double x)
+double gg_common_portable_tanh(double x)
 {
   if (isnan(x)) return x;
-  if (fabs(x) > 1) return copysign(1 - 2 / (gg_portable_exp(2 * fabs(x)) + 1), x);
+  if (fabs(x) > 1) return copysign(1 - 2 / (gg_common_portable_exp(2 * fabs(x)) + 1), x);
   double rest = 23;
   for (int n = 21; n > 0; n -= 2) rest = n + x * x / rest;
   return x / rest;
 }
 
 /* erf x = 2/sqrt(pi) e^(-x^2) sum_n 2^n x^(2n+1)/(2n+1)!!, a sum of terms of one sign. */
-double gg_portable_erf(double x)
+double gg_common_portable_erf(double x)
 {
   if (isnan(x)) return x;
   if (fabs(x) > 6) return copysign(1, x);
   double sum = 0, term = x;
   for (int n = 1; n < 160 && term != 0; n++) sum += term, term *= 2 * x * x / (2 * n + 1);
-  return 2 / sqrt(M_PI) * gg_portable_exp(-x * x) * sum;
+  return 2 / sqrt(M_PI) * gg_common_portable_exp(-x * x) * sum;
 }

@@ -4,14 +4,14 @@
 #ifndef GG_PORTABLE_FUNCTIONS_H
 #define GG_PORTABLE_FUNCTIONS_H
 
-double gg_portable_exp(double x);
-double gg_portable_ln(double x);
-double gg_portable_log10(double x);
-double gg_portable_pow(double a, double b);
-double gg_portable_sin(double x);
-double gg_portable_cos(double x);
-double gg_portable_atan(double x);
-double gg_portable_tanh(double x);
-double gg_portable_erf(double x);
+double gg_common_portable_exp(double x);
+double gg_common_portable_ln(double x);
+double gg_common_portable_log10(double x);
+double gg_common_portable_pow(double a, double b);
+double gg_common_portable_sin(double x);
+double gg_common_portable_cos(double x);
+double gg_common_portable_atan(double x);
+double gg_common_portable_tanh(double x);
+double gg_common_portable_erf(double x);
 
 #endif

@@ -187,7 +187,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
   const bool fluctuates = rests && !m->homogeneous;
   const bool noisy = m->bath.on || m->kicks || gg_common_heat_of(m) == GG_HEAT_KICKS;
-  const bool turned = gg_common_model_is_turned(m);
+  const bool turned = gg_common_model_is_turned(m), sheared = gg_model_is_sheared(m);
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
     unsigned need;
@@ -196,7 +196,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   } rules[] = {
       {GG_NEEDS_SPINS, smooth, "smooth grains do not spin"},
       {GG_NEEDS_MEAN_SPIN, m->walled, "between walls it depends on y; see profile_spin_z"},
-      {GG_NEEDS_MEAN_SPIN, m->shear_rate == 0 && m->spin0 == 0 && !turned,
+      {GG_NEEDS_MEAN_SPIN, !sheared && m->spin0 == 0 && !turned,
        "without shear, torque, tangential kicks or start.spin there is no mean spin"},
       {GG_NEEDS_MEAN_SPIN, m->boltzmann,
        "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},
@@ -207,22 +207,22 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_VOLUME, m->boltzmann, "an ideal gas in the Boltzmann limit: Z = 1 by definition"},
       {GG_NEEDS_SCALE_SHOWN, cools, "decays in free cooling; see the history"},
       {GG_NEEDS_SCALE, cools, "decays in free cooling"},
-      {GG_NEEDS_SHEAR, m->shear_rate == 0, "there is no shear"},
+      {GG_NEEDS_SHEAR, !sheared, "there is no shear"},
       {GG_NEEDS_NO_WALLS, m->walled, "between walls the gas is not homogeneous"},
       {GG_NEEDS_WALLS, !m->walled, "there are no walls"},
       {GG_NEEDS_UNEQUAL_WALLS, alike, "there are no two walls of different temperatures"},
-      {GG_NEEDS_WORK, m->shear_rate == 0 && !m->walled && !noisy, "nothing does work on the grains"},
+      {GG_NEEDS_WORK, !sheared && !m->walled && !noisy, "nothing does work on the grains"},
       {GG_NEEDS_LOSS, m->elastic || (m->elastic_grains && gg_model_has_thermal_walls(m)), "collisions conserve energy"},
       {GG_NEEDS_BOX, m->homogeneous, "the Monte Carlo ensemble has no box"},
       {GG_NEEDS_COOLING, !cools && !heated, "only in cooling and heated flows"},
       {GG_NEEDS_COOLING, heated && !smooth, "the energy loss of rough grains does not depend on one temperature alone"},
-      {GG_NEEDS_NO_SHEAR, m->shear_rate != 0, "see the kurtosis in sheared flows"},
+      {GG_NEEDS_NO_SHEAR, sheared, "see the kurtosis in sheared flows"},
       {GG_NEEDS_ONE_SPECIES, m->n_species > 1, "see c_1 and c_2 for mixtures"},
       {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response && !fluctuates,
        "needs flow: small_shear; or md of elastic grains at rest"},
       {GG_NEEDS_FLUCTUATIONS, !fluctuates, "measured in md of elastic grains at rest"},
       {GG_NEEDS_THEORY, true, "given by theories only; see graingas theory"},
-      {GG_NEEDS_HEAT_FLUX, m->shear_rate != 0 || m->walled || heated, "only in cooling gases and at rest"},
+      {GG_NEEDS_HEAT_FLUX, sheared || m->walled || heated, "only in cooling gases and at rest"},
       {GG_NEEDS_HEAT_FLUX, m->n_species > 1 || m->rule == GG_FRICTIONAL, "measured of one species without friction"},
       {GG_NEEDS_HEAT_FLUX, !smooth && !m->homogeneous, "of rough grains needs engine: dsmc"},
       {GG_NEEDS_HEAT_FLUX, m->law.name != NULL, "with a law of restitution the cooling gas is never the same"},

@@ -19,8 +19,8 @@ static void call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *pass)
   pass->time = d->interval_begin + 0.5 * pass->time_step;
 }
 
-/* Collisions of one pair of species. `hold`: range of strains from `strain` over which the speed bounds must hold; 0:
- * their scale follows the strain. */
+/* Collisions of one pair of species. `hold`: range of strains from `strain` on, in the direction of `span`, over which
+ * the speed bounds must hold; 0: their scale follows the strain. */
 static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, double span, double hold)
 {
   gg_dsmc_majorant *learned = &d->now.majorant[gg_pair(i, j)];
@@ -38,7 +38,7 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
     if (d->callback.call) call_back(d, i, j, dt, &pass);
     pass.strain_step = pass.candidates ? span / (double)pass.candidates : 0;
     pass.strain = strain + 0.5 * pass.strain_step;
-    gg_dsmc_ensemble_strain_bounds(&d->ensemble, strain, hold);
+    gg_dsmc_ensemble_strain_bounds(&d->ensemble, span < 0 ? strain - hold : strain, hold);
     pass.bound_scale = d->ensemble.bound_scale;
     if (hold > 0) pass.bound_margin = gg_dsmc_bound_growth(hold);
     gg_dsmc_collide_pass(d->ensemble.kernels, path, features, &pass, &d->now.lanes, &d->now.rng);

@@ -273,6 +273,16 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   return GG_OK;
 }
 
+/* Majorants go on: a larger rate raises them, as every relative velocity does that exceeds them. */
+static gg_status shear(gg_engine *engine, double rate, gg_error *err)
+{
+  gg_dsmc *d = dsmc_of(engine);
+  if (!gg_model_is_sheared(&d->model)) return gg_base_fail(err, GG_BAD_INPUT, "dsmc: this flow is not sheared");
+  d->model.shear_rate = rate;
+  gg_dsmc_synchronise(d);
+  return GG_OK;
+}
+
 static gg_status accepts(const gg_model *model, gg_error *err)
 {
   return (is_walled(model) ? gg_dsmc_channel_accepts : gg_dsmc_accepts)(model, err);
@@ -315,6 +325,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .snapshot = snapshot,
     .blocks = blocks,
     .rescale = rescale,
+    .shear = shear,
     .save = gg_dsmc_save,
     .restore = restore,
     .describe = describe,

@@ -18,7 +18,7 @@ int gg_dsmc_sweeps_of_part(const gg_dsmc_time_step *step, gg_dsmc_splitting spli
 
 double gg_dsmc_strains_to_hold(int n_species, double span)
 {
-  return n_species > 2 ? 2 * span : 0;
+  return n_species > 2 ? 2 * fabs(span) : 0;
 }
 
 int gg_dsmc_list_substeps(int pairs, gg_dsmc_splitting splitting, int sweeps,

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One step: streaming, collisions, thermostat. */
+#include <math.h>
+
 #include "dsmc/dsmc.h"
 #include "dsmc/dsmc_thermostat.h"
 
@@ -82,6 +84,6 @@ double gg_dsmc_step(gg_dsmc *d, double left, double wanted)
   s->unsynchronised += dt;
   /* A synchronisation costs as much as several collisions a grain: it is done only as often as the temperature changes.
    */
-  if (s->unsynchronised >= s->step.synchronise || s->strain >= 1) gg_dsmc_synchronise(d);
+  if (s->unsynchronised >= s->step.synchronise || fabs(s->strain) >= 1) gg_dsmc_synchronise(d);
   return dt;
 }

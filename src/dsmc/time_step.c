@@ -78,12 +78,12 @@ gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
   gg_dsmc_time_step step = {.synchronise = heated ? free_time : 3 * free_time,
                             .length = heated ? alternate_every(model, free_time) * free_time : free_time};
   if (!heated && model->shear_rate == 0) step.length = step.synchronise; /* collisions alone need no step */
-  if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
+  if (model->shear_rate != 0) step.length = smaller(step.length, 0.5 / fabs(model->shear_rate));
   step.splitting =
       model->n_species == 1 ? step.length : smaller(step.length, alternate_every(model, free_time) * free_time);
   if (model->time_step > 0) {
     step.splitting = step.length = model->time_step * free_time;
-    step.split = model->shear_rate > 0;
+    step.split = model->shear_rate != 0;
   }
   const double h = step.splitting / free_time;
   step.bias = (step.split ? split_of(model, free_time) : alternation_of(model, free_time)) * h * h;

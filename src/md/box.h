@@ -12,7 +12,7 @@
 
 typedef struct gg_md_box {
   double edge[3], inverse[3];
-  double image_velocity; /* U; 0 without shear */
+  double image_velocity; /* U; 0 without shear, and below 0 in reversed shear */
   double offset0;        /* D_0, in [0, L_x): offset at the start of the epoch */
 } gg_md_box;
 

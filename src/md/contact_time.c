@@ -29,7 +29,7 @@ double gg_md_temperature(const gg_md *e)
 
 double gg_md_early_temperature(const gg_md *e, double T)
 {
-  const double sheared = e->model.shear_rate != 0 ? 0.01 : 0, bath = e->model.bath.on ? e->k.kick_temperature : 0;
+  const double sheared = gg_model_is_sheared(&e->model) ? 0.01 : 0, bath = e->model.bath.on ? e->k.kick_temperature : 0;
   return fmax(T, fmax(sheared, bath));
 }
 

@@ -71,7 +71,7 @@ bool gg_md_next_epoch(gg_md *e)
     e->node[i].skin_time -= span;
   }
   if (gg_md_search_has_rows(e->search.kind)) gg_md_move_rows(e, span);
-  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && e->model.shear_rate != 0) move_skins(e, span);
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && gg_model_is_sheared(&e->model)) move_skins(e, span);
   e->k.epoch_start += span;
   e->k.now -= span;
   e->k.mark -= span;

@@ -48,7 +48,7 @@ const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, gg_md_search_kind kin
 
 static enum gg_md_boundary boundary_of(const gg_md *e)
 {
-  if (e->model.shear_rate != 0) return GG_MD_SHEARED;
+  if (gg_model_is_sheared(&e->model)) return GG_MD_SHEARED;
   if (e->falls) return GG_MD_FALLING;
   return e->model.walled ? GG_MD_WALLED : GG_MD_PERIODIC;
 }
@@ -65,7 +65,7 @@ static bool is_wide_enough(const gg_md *e)
 static bool uses_plain_path(const gg_md *e, gg_md_search_kind kind)
 {
   if (kind == GG_MD_NEIGHBOUR_LISTS || gg_md_search_overlaps(kind)) return false;
-  return e->plain || (kind == GG_MD_PLAIN_CELLS && (e->model.shear_rate != 0 || !is_wide_enough(e)));
+  return e->plain || (kind == GG_MD_PLAIN_CELLS && (gg_model_is_sheared(&e->model) || !is_wide_enough(e)));
 }
 
 void gg_md_select(gg_md *e)

@@ -16,7 +16,7 @@ void gg_md_set_skins(gg_md *e, double radius)
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++)
       e->search.lists.reach[gg_md_pair(&e->contacts, i, j)] = m->sigma[gg_pair(i, j)] + 2 * radius;
-  e->search.lists.shrinkage = 0.25 * m->shear_rate * (gg_md_reach(m) + 2 * radius) * (1 + 1e-9);
+  e->search.lists.shrinkage = 0.25 * fabs(m->shear_rate) * (gg_md_reach(m) + 2 * radius) * (1 + 1e-9);
 }
 
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
@@ -51,6 +51,7 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   if (!gg_md_search_has_rows(kind)) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);
+  if (e->model.shear_rate == 0) gg_md_separate_rows(e);
   return GG_OK;
 }
 

@@ -89,7 +89,7 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   if (m->walled)
     describe_walls(m, line, context);
   else
-    describe(line, context, "box", m->shear_rate != 0 ? "periodic, Lees-Edwards shear" : "periodic, no shear");
+    describe(line, context, "box", gg_model_is_sheared(m) ? "periodic, Lees-Edwards shear" : "periodic, no shear");
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   describe(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
   describe(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");

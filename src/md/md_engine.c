@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "md/epoch.h"
 #include "md/event_loops.h"
+#include "md/grid.h"
 #include "md/kicks.h"
 #include "md/md_allocate.h"
 #include "md/md_operations.h"
@@ -239,12 +240,37 @@ static gg_status begin_sweep(gg_md *e, int power, gg_error *err)
   return gg_md_begin_at(e, gg_md_temperature(e), err);
 }
 
+/* Laboratory velocities change with the flow. The lists are made anew, since skins shrink at another rate. It is not
+ * stopped midway: the engine would be no state to continue from. */
+static gg_status shear(gg_engine *engine, double rate, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  const gg_stop *const stop = e->model.stop;
+  const double now = e->k.now, more = rate - e->model.shear_rate;
+  if (!gg_model_is_sheared(&e->model)) return gg_base_fail(err, GG_BAD_INPUT, "md: this flow is not sheared");
+  bring_to_present(e);
+  gg_md_kicks_move(e, now);
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_md_grain *g = &e->grain[i];
+    g->v.x += more * (g->r.y - 0.5 * e->box.edge[1]);
+    if (e->last) e->last[i] -= now;
+  }
+  e->model.shear_rate = rate;
+  e->box.image_velocity = rate * e->box.edge[1];
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) gg_md_set_skins(e, e->search.lists.radius);
+  if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e), gg_md_separate_rows(e);
+  e->model.stop = NULL;
+  const gg_status status = gg_md_predict_anew(e, err);
+  e->model.stop = stop;
+  return status;
+}
+
 /* Multiply all times and velocities by exact powers of two. */
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
   if (e->model.linear_response) return begin_sweep(e, power, err);
-  if (e->model.shear_rate != 0 || e->model.walled || e->heat != GG_UNHEATED)
+  if (gg_model_is_sheared(&e->model) || e->model.walled || e->heat != GG_UNHEATED)
     return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);
   e->k.power += power;
@@ -290,6 +316,7 @@ const gg_engine_ops gg_md_ops = {
     .state = state,
     .snapshot = gg_md_snapshot,
     .rescale = rescale,
+    .shear = shear,
     .save = gg_md_save,
     .restore = restore,
     .describe = gg_md_describe,

@@ -16,7 +16,7 @@ typedef struct scratch {
 static void into_box(const gg_md *e, gg_vec *r)
 {
   double layers = gg_floor(r->y * e->box.inverse[1]);
-  if (e->box.image_velocity != 0) r->x -= layers * gg_md_offset(&e->box, e->k.now);
+  if (gg_model_is_sheared(&e->model)) r->x -= layers * gg_md_offset(&e->box, e->k.now);
   for (int a = 0; a < 3; a++) {
     if (e->box.inverse[a] == 0) continue; /* no image between walls, or above an open top */
     double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);

@@ -6,8 +6,8 @@
  * where f, the fractional shift in [0, w), is the distance of each row from the row below it beyond whole cells, and
  * the s_j are whole numbers: s_j+1 - s_j = `row_shift` inside the box and `image_shift` from its uppermost row to the
  * image of the lowest row. All rows shift past each other at the same speed, shear_rate h for layers of height h: so f
- * is the same for all rows, and all whole numbers grow by one at the same time. If the image above has the offset D, D
- * = n_y f + m w.
+ * is the same for all rows, and all whole numbers change by one at the same time. If the image above has the offset D,
+ * D = n_y f + m w.
  *
  * Rows of overlapping cells (overlapping_members.h) are independent of each other: row j begins at (j + 1/2 - n_y/2) f,
  * where f, in [0, 2 L_x), is the distance that rows have moved past each other. e->k.fractional_shift is f at the start
@@ -42,7 +42,8 @@ static void place_linked_rows(gg_md *e)
                                         .above = j == n[1] - 1 ? k->image_shift : k->row_shift,
                                         .below = j == 0 ? k->image_shift : k->row_shift};
   }
-  e->search.rows.next_shift = (e->cells.width[0] - k->fractional_shift) / shift_speed(e);
+  const double speed = shift_speed(e), behind = k->fractional_shift, ahead = e->cells.width[0] - behind;
+  e->search.rows.next_shift = speed == 0 ? INFINITY : speed > 0 ? ahead / speed : behind / -speed;
 }
 
 /* Place rows of overlapping cells; the rows across the sheared boundary have the offset of the images. */
@@ -96,6 +97,14 @@ void gg_md_align_rows(gg_md *e)
   place_rows(e);
 }
 
+void gg_md_separate_rows(gg_md *e)
+{
+  const double golden = 0.381966011250105; /* no multiple is near a whole number */
+  if (e->search.kind != GG_MD_OVERLAPPING_ROWS) return;
+  e->k.fractional_shift = golden * e->cells.width[0];
+  place_rows(e);
+}
+
 /* Move rows by an epoch. The fractional shift follows the offset, so that rounding cannot separate rows from images. */
 static void move_linked_rows(gg_md *e, double span)
 {
@@ -117,11 +126,12 @@ void gg_md_move_rows(gg_md *e, double span)
   place_rows(e);
 }
 
-void gg_md_shift_rows_by_a_cell(gg_md *e)
+void gg_md_shift_rows_by_a_cell(gg_md *e, int step)
 {
-  e->k.row_shift = (e->k.row_shift + 1) % e->cells.n[0];
-  e->k.image_shift = (e->k.image_shift + 1) % e->cells.n[0];
-  e->k.fractional_shift -= e->cells.width[0];
+  const int32_t n = e->cells.n[0];
+  e->k.row_shift = (e->k.row_shift + n + step) % n;
+  e->k.image_shift = (e->k.image_shift + n + step) % n;
+  e->k.fractional_shift -= step * e->cells.width[0];
   place_rows(e);
 }
 

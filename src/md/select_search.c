@@ -102,9 +102,9 @@ gg_md_search_kind gg_md_search_select(const gg_model *m, double *radius, int32_t
   *radius = skin_radius(m);
   if (*radius > 0 && gg_md_fit_lists(m, *radius, n)) return GG_MD_NEIGHBOUR_LISTS;
   *radius = 0;
-  if (fit_overlapping(m, n)) return m->shear_rate != 0 ? GG_MD_OVERLAPPING_ROWS : GG_MD_OVERLAPPING_CELLS;
+  if (fit_overlapping(m, n)) return gg_model_is_sheared(m) ? GG_MD_OVERLAPPING_ROWS : GG_MD_OVERLAPPING_CELLS;
   fit_cells(m, n);
-  bool comoving = m->shear_rate != 0 && n[0] >= GG_MD_FEWEST_COMOVING && n[1] >= 4 && n[2] >= 4;
+  bool comoving = gg_model_is_sheared(m) && n[0] >= GG_MD_FEWEST_COMOVING && n[1] >= 4 && n[2] >= 4;
   return comoving ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS;
 }
 

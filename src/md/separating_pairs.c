@@ -33,7 +33,7 @@ static double largest_component(gg_vec a, gg_vec b)
 static double least_speed(const gg_md *e, const gg_md_grain *one, const gg_md_grain *two, gg_vec dr)
 {
   const double *edge = e->box.edge, longest = fmax(edge[0], fmax(edge[1], edge[2]));
-  double velocity = largest_component(one->v, two->v) + e->box.image_velocity;
+  double velocity = largest_component(one->v, two->v) + fabs(e->box.image_velocity);
   return ROUNDING * (1 + longest / sqrt(gg_dot(dr, dr))) * velocity;
 }
 

@@ -81,7 +81,7 @@ static bool is_contact(const gg_md *e, uint32_t i, const gg_md_node *node)
   if (changes != 0) return changes > 0;
   gg_vec dr = gg_sub(place_at(e, one, node->time), place_at(e, other, node->time)), dv = {0, 0, 0};
   if (!is_in_box(e, dr, 2 * FAR)) return false;
-  gg_md_minimum_image(&e->box, e->box.image_velocity != 0, node->time, &dr, &dv);
+  gg_md_minimum_image(&e->box, gg_model_is_sheared(&e->model), node->time, &dr, &dv);
   const double sigma = e->model.sigma[gg_pair((int)one->species, (int)other->species)];
   return gg_dot(dr, dr) > 1e-6 * sigma * sigma;
 }

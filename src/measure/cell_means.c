@@ -231,7 +231,7 @@ static double mean_x(const cell *c)
 static void add_shear_rate(const cells *d, int x, int y, int z, double root_T, double *bin)
 {
   const gg_model *m = d->model;
-  bool open = m->shear_rate == 0 && !gg_flow_is_walled(m->flow);
+  bool open = !gg_model_is_sheared(m) && !gg_flow_is_walled(m->flow);
   if (!open && (y == 0 || y == d->grid.n[1] - 1)) return;
   double height = m->box[1] / d->grid.n[1];
   double above = mean_x(cell_at(d, x, (y + 1) % d->grid.n[1], z));
@@ -326,7 +326,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   c = put(list, "cell_shear_rate", "local shear rate, less the imposed", "h Δγ/√T", SIGNED_BINS,
           -SIGNED_BINS * SIGNED_WIDTH / 4 + SIGNED_WIDTH / 4, SIGNED_WIDTH / 2, bin + SHEAR, bin[N_SHEAR]);
   const char *rate = gg_measure_curve_unit(m, "spin");
-  if (m->shear_rate != 0 || m->walled)
+  if (gg_model_is_sheared(m) || m->walled)
     gg_measure_curve_put_number(c, "mean_shear_rate", bin[SHEAR_SUM] / bin[N_SHEAR], rate);
   if (gg_model_keeps_temperature(m))
     gg_measure_curve_put_number(c, "rate_unit", bin[ROOT_T] / snapshots * d->grid.n[1] / m->box[1], rate);

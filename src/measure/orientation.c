@@ -115,7 +115,7 @@ static void take_instantaneous(const gg_snapshot *s, size_t from, size_t n, vect
 /* The sheared Monte Carlo ensemble has no positions, and so only peculiar velocities. */
 static bool has_both(const gg_model *m)
 {
-  return !m->homogeneous || m->shear_rate == 0;
+  return !m->homogeneous || !gg_model_is_sheared(m);
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)

@@ -42,7 +42,7 @@ static void choose_radius(gg_pairs *p, const gg_model *m, double budget)
 
 gg_status gg_measure_pairs_init(gg_pairs *p, const gg_model *m, double reach, double budget, double fall, gg_error *err)
 {
-  double slant = m->shear_rate != 0 ? hypot(1, 0.5 * m->box[0] / m->box[1]) : 1;
+  double slant = gg_model_is_sheared(m) ? hypot(1, 0.5 * m->box[0] / m->box[1]) : 1;
   double width = cbrt(GRAINS_PER_CELL * m->volume / (double)m->n);
   *p = (gg_pairs){.reach = reach, .fall = fall, .n = (size_t)m->n};
   for (int a = 0; a < 3; a++) p->cells[a] = (int)fmax(fmin(floor(m->box[a] / (a == 0 ? slant : 1) / width), 1024), 1);
@@ -69,7 +69,7 @@ void gg_measure_pairs_clear(gg_pairs *p)
 
 gg_images gg_measure_pairs_images(const gg_snapshot *s)
 {
-  gg_images b = {.offset = s->model->shear_rate != 0 ? s->offset : 0};
+  gg_images b = {.offset = gg_model_is_sheared(s->model) ? s->offset : 0};
   for (int a = 0; a < 3; a++) b.edge[a] = s->model->box[a], b.inverse[a] = 1 / b.edge[a];
   b.offset -= b.edge[0] * gg_round_half(b.offset * b.inverse[0]);
   return b;

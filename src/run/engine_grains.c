@@ -52,8 +52,8 @@ void gg_run_engine_grains_read(gg_engine *engine, const gg_model *model, gg_engi
 bool gg_run_is_same_gas(const gg_model *a, const gg_model *b)
 {
   bool same = a->flow == b->flow && a->n == b->n && a->n_species == b->n_species && a->boltzmann == b->boltzmann &&
-              (a->rule == GG_SMOOTH) == (b->rule == GG_SMOOTH) && (a->shear_rate == 0) == (b->shear_rate == 0) &&
-              a->stress_unit == b->stress_unit && a->volume == b->volume;
+              (a->rule == GG_SMOOTH) == (b->rule == GG_SMOOTH) && a->stress_unit == b->stress_unit &&
+              a->volume == b->volume;
   for (int k = 0; same && k < a->n_species; k++)
     same = a->n_of[k] == b->n_of[k] && a->mass[k] == b->mass[k] && a->diameter[k] == b->diameter[k] &&
            a->inertia[k] == b->inertia[k];

@@ -13,15 +13,24 @@
 
 enum { INTERVALS = 100 };
 
+/* At the ends of steps of the shear rate, where these are. */
+static int intervals_of(const gg_scene *s)
+{
+  const int64_t steps = gg_scene_shear_steps(s);
+  return steps > 0 ? (int)steps : INTERVALS;
+}
+
 /* The k-th of the evenly spaced times and the times of changes, each once; INFINITY beyond the last. User's units. */
 static double user_time(const gg_scene *s, uint64_t k)
 {
+  const int intervals = intervals_of(s);
   double time = 0;
+  if (!*s->protocol[0].key) return k > (uint64_t)intervals ? INFINITY : s->run.duration * (double)k / intervals;
   for (int even = 1, next = 0; k > 0; k--) {
     const double at = next < gg_scene_protocol_count(s, INFINITY) ? s->protocol[next].at : INFINITY;
-    if (even > INTERVALS) return INFINITY;
-    time = fmin(at, s->run.duration * even / INTERVALS);
-    even += time == s->run.duration * even / INTERVALS;
+    if (even > intervals) return INFINITY;
+    time = fmin(at, s->run.duration * even / intervals);
+    even += time == s->run.duration * even / intervals;
     next = gg_scene_protocol_count(s, time);
   }
   return time;
@@ -29,7 +38,7 @@ static double user_time(const gg_scene *s, uint64_t k)
 
 uint64_t gg_run_protocol_samples(const gg_scene *s)
 {
-  uint64_t k = INTERVALS;
+  uint64_t k = (uint64_t)intervals_of(s);
   while (user_time(s, k + 1) < INFINITY) k++;
   return k;
 }
@@ -37,6 +46,22 @@ uint64_t gg_run_protocol_samples(const gg_scene *s)
 double gg_run_protocol_time(const gg_scene *s, uint64_t k)
 {
   return user_time(s, k) * gg_scene_clock_rate(s);
+}
+
+double gg_run_protocol_shear_rate(const gg_scene *s, uint64_t k)
+{
+  const int64_t n = gg_scene_shear_steps(s), step = (int64_t)(user_time(s, k) / s->run.duration * (double)n + 1e-6);
+  return gg_scene_shear_rate(s, step < n ? step : n - 1) / gg_scene_clock_rate(s);
+}
+
+bool gg_run_protocol_is_forward(const gg_scene *s)
+{
+  bool forward = gg_scene_shear_steps(s) == 0 && s->shear.rate > 0;
+  for (int n = 1; forward && n <= gg_scene_protocol_count(s, INFINITY); n++) {
+    gg_scene then;
+    forward = gg_scene_protocol_apply(s, n, &then, NULL) != GG_OK || then.shear.rate > 0;
+  }
+  return forward;
 }
 
 static gg_status make_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed, gg_error *err)
@@ -58,14 +83,16 @@ int gg_run_protocol_changes(const gg_scene *scene, uint64_t k)
 }
 
 gg_status gg_run_protocol_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed,
-                                  gg_error *err)
+                                gg_error *err)
 {
   return changes ? make_model(scene, model, changes, changed, err) : (*changed = *model, GG_OK);
 }
 
 gg_status gg_run_protocol_end_scene(const gg_scene *scene, gg_scene *end, gg_error *err)
 {
-  return gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), end, err);
+  GG_TRY(gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), end, err));
+  if (gg_scene_shear_steps(scene) > 0) end->shear.rate = 0, *end->shear.formula = '\0'; /* no steady shear */
+  return GG_OK;
 }
 
 gg_status gg_run_protocol_end_model(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err)
@@ -116,6 +143,7 @@ double gg_run_protocol_collisions(const gg_scene *scene, const gg_model *model)
       break;
     const bool begins = k == 0 || changes != made;
     made = changes;
+    if (gg_scene_shear_steps(scene) > 0) now->shear_rate = gg_run_protocol_shear_rate(scene, k);
     const double before = x.collisions;
     if (gg_theory_relaxation_name(now))
       gg_theory_relax(now, dt, &x);

@@ -17,6 +17,10 @@ int gg_run_protocol_changes(const gg_scene *scene, uint64_t k);
 gg_status gg_run_protocol_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed,
                                 gg_error *err);
 gg_status gg_run_protocol_check(const gg_scene *scene, const gg_model *model, gg_error *err);
+/* Shear rate from sample k on, where it is a formula of time; units of results. */
+double gg_run_protocol_shear_rate(const gg_scene *scene, uint64_t k);
+/* True if the gas is never at rest nor sheared backwards, so that it has a viscosity at all times. */
+bool gg_run_protocol_is_forward(const gg_scene *scene);
 /* Estimated collisions per grain up to the end. */
 double gg_run_protocol_collisions(const gg_scene *scene, const gg_model *model);
 /* The scene after the last change, and its model: what theories describe, and observables measure. */

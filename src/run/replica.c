@@ -249,10 +249,21 @@ static gg_status change_if_due(gg_replica *r, gg_error *err)
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
   gg_status status = gg_run_protocol_model(&r->scene, &r->model, changes, model, err);
+  if (gg_scene_shear_steps(&r->scene) > 0) model->shear_rate = r->model.shear_rate;
   if (status == GG_OK) status = change(r, model, err);
   if (status == GG_OK) r->clock.changes = changes;
   free(model);
   return status;
+}
+
+/* The next step of a shear rate that is a formula of time. */
+static gg_status shear_if_due(gg_replica *r, gg_error *err)
+{
+  if (gg_scene_shear_steps(&r->scene) == 0) return GG_OK;
+  const double rate = gg_run_protocol_shear_rate(&r->scene, r->clock.samples);
+  if (rate != r->model.shear_rate) GG_TRY(r->engine->ops->shear(r->engine, rate, err));
+  r->model.shear_rate = rate;
+  return GG_OK;
 }
 
 static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
@@ -273,6 +284,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   gg_statistics_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened, before);
+  GG_TRY(shear_if_due(r, err));
   GG_TRY(change_if_due(r, err));
   return rescale_if_due(r, err);
 }
@@ -337,18 +349,25 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
   return good ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }
 
-/* Apply the changes of the protocol that the saved engine had. */
+static gg_status restore_changes(gg_replica *r, int changes, gg_error *err)
+{
+  gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  gg_status status = model ? gg_run_protocol_model(&r->scene, &r->model, changes, model, err) : GG_FAILED;
+  if (status == GG_OK) r->model = *model;
+  free(model);
+  return status;
+}
+
+/* Apply the changes of the protocol, and the shear rate, that the saved engine had. */
 static gg_status restore_model(gg_replica *r, gg_error *err)
 {
   const int64_t changes = r->clock.changes;
   if (changes < 0 || changes > gg_scene_protocol_count(&r->scene, INFINITY))
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the protocol of a replica");
-  if (!changes) return GG_OK;
-  gg_model *model = gg_base_array_new(1, sizeof *model, err);
-  gg_status status = model ? gg_run_protocol_model(&r->scene, &r->model, (int)changes, model, err) : GG_FAILED;
-  if (status == GG_OK) r->model = *model;
-  free(model);
-  return status;
+  if (changes) GG_TRY(restore_changes(r, (int)changes, err));
+  if (gg_scene_shear_steps(&r->scene) > 0)
+    r->model.shear_rate = gg_run_protocol_shear_rate(&r->scene, r->clock.samples);
+  return GG_OK;
 }
 
 gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,

@@ -153,7 +153,7 @@ static void warn_if_undercooled(gg_result *result)
 {
   const gg_model *m = &result->model;
   const bool alike = gg_common_model_widest(m) == gg_common_model_narrowest(m);
-  if (m->homogeneous || m->walled || m->shear_rate != 0 || !alike || !(m->phi > FREEZING)) return;
+  if (m->homogeneous || m->walled || gg_model_is_sheared(m) || !alike || !(m->phi > FREEZING)) return;
   gg_run_result_warn(result,
                      "phi %.3g is above freezing (%.3g), where spheres of one diameter would crystallise; the run "
                      "starts from random places, and its means are those of the metastable fluid",
@@ -188,7 +188,7 @@ static void warn_if_structured(gg_result *result)
     return;
   }
   const bool at_one_instant = gg_scene_is_followed(result->scene);
-  if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow) || at_one_instant) return;
+  if (gg_model_is_sheared(&result->model) || gg_flow_is_walled(result->model.flow) || at_one_instant) return;
   for (gg_quantity q = gg_common_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
        q = gg_common_quantity_next(q, GG_STRESS_DIFFERENCE)) {
     const gg_estimate *e = &result->value[q];

@@ -12,6 +12,7 @@
 #include "run/protocol_times.h"
 #include "run/replicas.h"
 #include "run/scheduler.h"
+#include "scene/fields.h"
 #include "scene/model_of_scene.h"
 
 /* Make a result of the present state of the replicas; it may fall short of the requested errors. */
@@ -297,7 +298,8 @@ static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
   *model = *start;
-  gg_status status = *scene->protocol[0].key ? gg_run_protocol_end_model(scene, GG_MD, model, err) : GG_OK;
+  const bool changes = *scene->protocol[0].key || gg_scene_shear_steps(scene) > 0;
+  gg_status status = changes ? gg_run_protocol_end_model(scene, GG_MD, model, err) : GG_OK;
   model->stop = stop;
   if (status == GG_OK) status = gg_run_compare_theories(model, NULL, c, err);
   free(model);

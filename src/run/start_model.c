@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "common/linear_response.h"
 #include "common/portable_math.h"
+#include "scene/fields.h"
 #include "scene/model_of_scene.h"
 #include "theory/theory.h"
 
@@ -61,7 +62,7 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
 gg_status gg_run_start_near_steady(gg_model *model, gg_error *err)
 {
   if (model->linear_response) start_of_sweep(model);
-  if (!model->steady || model->shear_rate == 0) return GG_OK;
+  if (!model->steady || !gg_model_is_sheared(model)) return GG_OK;
   for (int round = 0; round < (model->law.name ? 5 : 1); round++) {
     GG_TRY(start_at_theory(model, err));
     gg_common_model_at(model, model->temperature0);
@@ -77,7 +78,11 @@ gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const g
   else
     GG_TRY(gg_scene_model_make(scene, scene->engine, model, err));
   model->stop = stop;
+  /* Of shear that rests, is reversed or changes: near the steady state of the rate that is the unit. */
+  const double rate = model->shear_rate;
+  if (gg_model_is_sheared(model) && (rate <= 0 || gg_scene_shear_steps(scene) > 0)) model->shear_rate = 1;
   if (scene->start.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(model, err));
+  model->shear_rate = rate;
   gg_scene_model_set_ratio(scene, model);
   return GG_OK;
 }

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "run/engine_grains.h"
+#include "run/oscillation.h"
 #include "run/protocol_times.h"
 #include "run/series_means.h"
 #include "scene/fields.h"
@@ -33,9 +34,10 @@ static double factor_of(const gg_replicas *all, const gg_model *m, gg_quantity q
   if (q != GG_Q_SHEAR_VISCOSITY) return 1;
   gg_scene now;
   const int changes = row > 0 ? gg_run_protocol_changes(&all->scene, row - 1) : 0;
+  if (!gg_run_protocol_is_forward(&all->scene)) return NAN;
   if (changes == 0) return m->shear_rate / all->model.shear_rate;
   if (gg_scene_protocol_apply(&all->scene, changes, &now, NULL) != GG_OK) return NAN;
-  return m->shear_rate / (all->model.shear_rate * now.shear_rate / all->scene.shear_rate);
+  return m->shear_rate / (all->model.shear_rate * now.shear.rate / all->scene.shear.rate);
 }
 
 /* Mean of a function of the channels of observable k over the sample `row` of all replicas, with their present
@@ -93,9 +95,14 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
   *start = all->model;
   start->stop = stop.asked ? &stop : NULL;
   for (size_t k = 0; status == GG_OK && k < all->replica[0].series.n; k++) {
+    if (k > 0 && gg_scene_shear_steps(s) > 0) model->shear_rate = gg_run_protocol_shear_rate(s, k - 1);
     if (k > 0) gg_theory_relax(model, gg_run_protocol_time(s, k) - gg_run_protocol_time(s, k - 1), &x);
     if (x.stop) status = gg_stop_check(x.stop, err);
     at[k] = x;
+    if (k > 0 && gg_scene_shear_steps(s) > 0 && x.work >= 0) { /* at the end of a step the rate is between two */
+      model->shear_rate = (gg_run_protocol_shear_rate(s, k - 1) + gg_run_protocol_shear_rate(s, k)) / 2;
+      gg_theory_relaxation_stress(model, &at[k]);
+    }
     if (status != GG_OK || (k > 0 && changes == gg_run_protocol_changes(s, k))) continue;
     changes = gg_run_protocol_changes(s, k);
     status = gg_run_protocol_model(s, start, changes, model, err);
@@ -119,7 +126,7 @@ static bool is_stress(gg_quantity q)
 
 static bool is_shown(const gg_model *m, gg_quantity q)
 {
-  if (m->shear_rate != 0 && (is_stress(q) || q == GG_Q_SPIN_Z || q == GG_Q_COS2_PSI)) return true;
+  if (gg_model_is_sheared(m) && (is_stress(q) || q == GG_Q_SPIN_Z || q == GG_Q_COS2_PSI)) return true;
   return q == GG_Q_TEMPERATURE || q == GG_Q_ROTATIONAL_TEMPERATURE || q == GG_Q_TEMPERATURE_RATIO || q == GG_Q_A2 ||
          (q >= GG_Q_PARTIAL_TEMPERATURE && q < GG_Q_PARTIAL_TEMPERATURE + GG_MAX_SPECIES);
 }
@@ -170,11 +177,15 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
   gg_relaxing *theory = gg_base_array_new(all->replica[0].series.n + 1, sizeof *theory, err);
   if (!theory) return GG_FAILED;
   const size_t changed = last_change(all);
+  if (gg_flow_is_sheared(all->scene.flow) && (gg_scene_shear_steps(&all->scene) > 0 || all->scene.shear.rate <= 0))
+    gg_run_result_warn(result, "gamma in the units of results is the largest absolute shear rate%s, %g",
+                       all->scene.shear.rate < 0 ? " at the start" : "", gg_scene_unit_rate(&all->scene));
   gg_status status = known ? integrate(all, theory, err) : GG_OK;
   list->group = "relaxation";
   for (int i = 0; i < result->rows.n; i++) {
     gg_function f;
     const gg_quantity_row *row = &result->rows.row[i];
+    if (row->quantity == GG_Q_SHEAR_VISCOSITY && !gg_run_protocol_is_forward(&all->scene)) continue;
     if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, 0, list);
     /* Changes after the last step of the protocol may be small beside those before it: add a separate curve. */
@@ -183,6 +194,8 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
       add_curve(all, row, &f, known ? theory : NULL, changed, list);
   }
   list->group = NULL;
+  if (status == GG_OK && all->scene.shear.period != GG_AUTO && gg_scene_shear_steps(&all->scene) > 0)
+    status = gg_run_oscillation_curves(all, known ? theory : NULL, list, err);
   free(theory);
   GG_TRY(status);
   return list->failed ? gg_base_out_of_memory_for(err, "the curves in time") : GG_OK;

@@ -214,11 +214,30 @@ static gg_status check_start(const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
+/* A rate of 0 or below is one of a gas that is followed. */
+static gg_status check_rate(const gg_scene *s, gg_error *err)
+{
+  const bool formula = *s->shear.formula;
+  if (!gg_flow_is_sheared(s->flow)) return GG_OK;
+  if (formula) {
+    for (int i = 0; i < gg_scene_protocol_count(s, INFINITY); i++)
+      if (strcmp(s->protocol[i].key, "shear_rate") == 0)
+        return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': shear_rate is a formula; give its changes there");
+    return GG_OK;
+  }
+  if (s->shear.rate > 0 || (s->flow == GG_USF && gg_scene_is_followed(s) && gg_scene_unit_rate(s) > 0)) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "key 'shear_rate': %g is not allowed here; allowed: above 0, and in flow: %s with run.duration "
+                      "below 0, or 0 at the start of a protocol that changes it",
+                      s->shear.rate, gg_flow_of(GG_USF)->word);
+}
+
 /* Each change has to leave a valid scene. */
 static gg_status check_protocol(const gg_scene *s, gg_error *err)
 {
   const int n = gg_scene_protocol_count(s, INFINITY);
   gg_scene changed;
+  GG_TRY(check_rate(s, err));
   if (!n) return GG_OK;
   if (!gg_scene_is_followed(s))
     return gg_base_fail(err, GG_BAD_INPUT, "protocol needs run.duration, the time for which the gas is followed");
@@ -274,6 +293,7 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
   GG_TRY(check_start(s, err));
   GG_TRY(check_cells(s, err));
   GG_TRY(check_flow(s, err));
+  if (gg_flow_is_sheared(s->flow) && *s->shear.formula) GG_TRY(gg_scene_shear_finish(s, err));
   return check_duration(s, err);
 }
 
@@ -350,6 +370,7 @@ static const struct {
                          "walls.temperature is none, or walls.accommodation below 1"},
     [GG_IF_AVERAGED] = {"while run.duration is given", NULL, "", "run.duration is none"},
     [GG_IF_FOLLOWED] = {"while run.duration is none", NULL, "", "run.duration is given"},
+    [GG_IF_FORMULA] = {"while shear_rate is a number", NULL, "", "shear_rate is a formula"},
 };
 
 void gg_scene_field_when(const gg_field *f, char *text, size_t size)
@@ -405,6 +426,7 @@ static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
   case GG_IF_FRAMES: return s->output.trajectory_every > 0;
   case GG_IF_AVERAGED: return !gg_scene_is_followed(s);
   case GG_IF_FOLLOWED: return gg_scene_is_followed(s);
+  case GG_IF_FORMULA: return *s->shear.formula;
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
   case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
   case GG_IF_LOCAL: return s->measure & GG_MEASURE_LOCAL_DISTRIBUTIONS;

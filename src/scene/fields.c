@@ -113,9 +113,18 @@ const gg_field gg_scene_fields[] = {
      .doc = "number of grains in the box; by default fewer, from 500 on, where a box of 1000 that cools or has the "
             "Gaussian thermostat would not stay homogeneous",
      .when = GG_BIT(GG_IF_COUNTED), .also = "N grains number n_particles num_particles"},
-    {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .by_default = 1, .unit = "1/time",
-     .doc = "imposed shear rate", .when = GG_BIT(GG_IF_SHEARED), .also = "gamma gamma_dot rate shear",
-     .on_the_way = true},
+    {"shear_rate", GG_FIELD_RATE, AT(shear.rate), -LARGE, LARGE, .by_default = 1, .unit = "1/time",
+     .doc = "imposed shear rate: above 0; with run.duration also 0, below 0, or a formula of the time t, "
+            "\"sin(2*pi*t/10)\", whose mean in each of shear_steps steps is imposed",
+     .when = GG_BIT(GG_IF_SHEARED), .also = "gamma gamma_dot rate shear", .on_the_way = true},
+    {"shear_steps", GG_FIELD_INTEGER, AT(shear.steps), 1, 1e5, .by_default = 100,
+     .doc = "number of equal steps of constant shear rate, at whose ends the gas is sampled: in shear_period, or in "
+            "run.duration",
+     .when = GG_BIT(GG_IF_SHEARED) | GG_BIT(GG_IF_FOLLOWED) | GG_BIT(GG_IF_FORMULA)},
+    {"shear_period", GG_FIELD_NUMBER, AT(shear.period), 0, LARGE, true, NONE, .unit = "time",
+     .doc = "period of the formula; run.duration has a whole number of them, two or more: of the later half amplitudes "
+            "and phases of stress and temperature are computed",
+     .when = GG_BIT(GG_IF_SHEARED) | GG_BIT(GG_IF_FOLLOWED) | GG_BIT(GG_IF_FORMULA)},
     {"start.temperature", GG_FIELD_NUMBER, AT(start.temperature), 1e-100, 1e100, false, AUTO, .unit = "mass velocity^2",
      .doc = "initial temperature, <m C.C>/3; auto: near the steady state, and where the gas keeps or loses its initial "
             "temperature the one that makes v_0 a diameter per unit of time",
@@ -289,6 +298,7 @@ static void set_default(const gg_field *f, void *base)
   case GG_FIELD_SPECIES:
   case GG_FIELD_CHANGES:
   case GG_FIELD_FILE: return;
+  case GG_FIELD_RATE: *(double *)at = f->by_default; return; /* the formula stays empty */
   default:
     for (size_t i = 0; i < gg_scene_field_count(f); i++) ((double *)at)[i] = f->by_default;
   }
@@ -501,6 +511,7 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
     for (int i = 0; (word = gg_scene_field_word(f, i)).name; i++)
       gg_base_text_append(text, size, "%s%s", i ? ", " : "", word.name);
     return;
+  case GG_FIELD_RATE: number_allowed(f, "a formula of t, or a number", text, size); return;
   case GG_FIELD_FILE:
     snprintf(text, size, "the name of a file that ends in ");
     for (const gg_word *w = f->words; w->name; w++)

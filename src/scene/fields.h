@@ -23,6 +23,7 @@ typedef enum gg_field_type {
   GG_FIELD_ENDS,    /* double[2], lower and upper wall: a number for both, or a list of two */
   GG_FIELD_LIST,    /* double[GG_LOCAL_DENSITIES]: a list of different numbers, up to a 0; the special word: none */
   GG_FIELD_ERRORS,  /* double[GG_MAX_UNTIL]: a map by quantity: {N1: 0.01} */
+  GG_FIELD_RATE,    /* double, then char[GG_FORMULA_TEXT]: a number, or a formula of t */
   GG_FIELD_FILE,    /* char[GG_FILE_NAME]: the name of a file with one of the endings `words`; "": none */
   GG_FIELD_CHANGES, /* gg_change[GG_MAX_CHANGES]: a list of maps {at: TIME, KEY: VALUE, ...} */
   GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_scene_species_fields */
@@ -66,6 +67,7 @@ typedef enum gg_condition {
   GG_IF_ACCOMMODATION,
   GG_IF_AVERAGED,
   GG_IF_FOLLOWED,
+  GG_IF_FORMULA,
   GG_N_CONDITIONS
 } gg_condition;
 #define GG_BIT(condition) (UINT64_C(1) << (condition))
@@ -164,6 +166,16 @@ void gg_scene_yaml_print(FILE *out, const json_t *scene);
 void gg_scene_yaml_text_print(FILE *out, const char *text);
 void gg_scene_yaml_quoted_print(FILE *out, const char *text);
 void gg_scene_yaml_number(double value, char text[GG_NUMBER_TEXT]);
+
+/* shear_in_time.c: the shear rate as a formula of time, in user's units. */
+/* Steps of constant rate in the run, and periods; 0 steps: the rate is a number. */
+int64_t gg_scene_shear_steps(const gg_scene *scene);
+double gg_scene_shear_periods(const gg_scene *scene);
+/* Rate in a step, from 0 on; the number where there is no formula. */
+double gg_scene_shear_rate(const gg_scene *scene, int64_t step);
+double gg_scene_shear_strain(const gg_scene *scene, double time);
+/* Check the formula, and set shear.rate to its largest absolute value. */
+gg_status gg_scene_shear_finish(gg_scene *scene, gg_error *err);
 
 /* protocol.c: changes on the way. */
 

@@ -311,7 +311,7 @@ static gg_status make(const gg_scene *s, gg_engine_kind engine, bool counted, gg
   set_units(m, s);
   GG_TRY(check_start(m, s, err));
   set_pairs(m, s);
-  m->shear_rate = gg_flow_is_sheared(s->flow) ? s->shear_rate / gg_scene_clock_rate(s) : 0;
+  m->shear_rate = gg_flow_is_sheared(s->flow) ? gg_scene_shear_rate(s, 0) / gg_scene_clock_rate(s) : 0;
   GG_TRY(set_walls(m, s, err));
   set_reference_speed(m, s);
   for (int a = 0; a < 3; a++) m->gravity[a] = gg_units_velocity(m->unit, s->gravity[a]) * m->unit.time;

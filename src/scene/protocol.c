@@ -20,27 +20,44 @@ gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *change
   return GG_OK;
 }
 
+/* The rate after change i; `before` if it changes another key. */
+static double rate_after(const gg_scene *s, int i, double before)
+{
+  gg_scene then = *s;
+  if (strcmp(s->protocol[i].key, "shear_rate") != 0) return before;
+  return gg_scene_override(&then, "shear_rate", s->protocol[i].value, NULL) == GG_OK ? then.shear.rate : before;
+}
+
+double gg_scene_unit_rate(const gg_scene *s)
+{
+  double most = fabs(s->shear.rate);
+  for (int i = 0; s->shear.rate == 0 && i < GG_MAX_CHANGES && *s->protocol[i].key; i++)
+    most = fmax(most, fabs(rate_after(s, i, 0)));
+  return most;
+}
+
 gg_status gg_scene_check_shear_rate(const gg_scene *changed, gg_error *err)
 {
-  const double most = 1000, first = gg_scene_clock_rate(changed), rate = changed->shear_rate;
-  if (rate <= first * most * (1 + 1e-12) && rate >= first / most * (1 - 1e-12)) return GG_OK;
+  const double most = 1000, unit = gg_scene_clock_rate(changed), rate = changed->shear.rate, size = fabs(rate);
+  const bool small = size < unit / most * (1 - 1e-12), any_sign = changed->flow == GG_USF;
+  if (*changed->shear.formula) return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_rate': a formula is for the start");
+  if (size <= unit * most * (1 + 1e-12) && (rate == 0 || !small) && (any_sign || rate > 0)) return GG_OK;
   return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'shear_rate': %g is not allowed on the way from %g; allowed: from %g to %g", rate, first,
-                      first / most, first * most);
+                      "key 'shear_rate': %g is not allowed on the way from %g; allowed: from %g to %g%s", rate, unit,
+                      unit / most, unit * most, any_sign ? ", such a rate below 0, and 0" : "");
 }
 
 double gg_scene_strain(const gg_scene *scene, double time)
 {
   if (!gg_flow_is_sheared(scene->flow)) return 0;
   const double unit = gg_scene_clock_rate(scene);
-  double strain = 0, from = 0, rate = scene->shear_rate;
-  for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
-    const double at = c->at * unit;
-    gg_scene then = *scene;
-    if (strcmp(c->key, "shear_rate") != 0 || at >= time || gg_scene_override(&then, c->key, c->value, NULL) != GG_OK)
-      continue;
+  if (gg_scene_shear_steps(scene) > 0) return gg_scene_shear_strain(scene, time / unit);
+  double strain = 0, from = 0, rate = scene->shear.rate;
+  for (int i = 0; i < GG_MAX_CHANGES && *scene->protocol[i].key; i++) {
+    const double at = scene->protocol[i].at * unit;
+    if (strcmp(scene->protocol[i].key, "shear_rate") != 0 || at >= time) continue;
     strain += rate / unit * (at - from);
-    from = at, rate = then.shear_rate;
+    from = at, rate = rate_after(scene, i, rate);
   }
   return strain + rate / unit * (time - from);
 }

@@ -19,6 +19,7 @@ static const struct {
     [GG_FIELD_ERRORS] = {GG_ITEM_F64, GG_MAX_UNTIL},
     [GG_FIELD_VECTOR] = {GG_ITEM_F64, 3},
     [GG_FIELD_LIST] = {GG_ITEM_F64, GG_LOCAL_DENSITIES},
+    [GG_FIELD_RATE] = {GG_ITEM_U8, sizeof(double) + GG_FORMULA_TEXT},
     [GG_FIELD_FILE] = {GG_ITEM_U8, GG_FILE_NAME},
     [GG_FIELD_CHANGES] = {GG_ITEM_U8, sizeof(gg_change) * GG_MAX_CHANGES},
     [GG_FIELD_ENDS] = {GG_ITEM_F64, 2},

@@ -49,7 +49,7 @@ typedef struct gg_scene_fixed {
 } gg_scene_fixed;
 
 /* A change during the run: one key at one time, in the text of scenes. */
-enum { GG_MAX_CHANGES = 16, GG_CHANGE_TEXT = 40 };
+enum { GG_FORMULA_TEXT = 120, GG_MAX_CHANGES = 16, GG_CHANGE_TEXT = 40 };
 typedef struct gg_change {
   double at; /* user's units */
   char key[GG_CHANGE_TEXT], value[GG_CHANGE_TEXT];
@@ -73,7 +73,12 @@ struct gg_scene {
   gg_contact_value contact_value;       /* chi of the Monte Carlo engine and of theories */
   double phi;
   int64_t particles;
-  double shear_rate;
+  struct {
+    double rate;                   /* a number; or the largest absolute value of the formula (gg_scene_finish) */
+    char formula[GG_FORMULA_TEXT]; /* of the time t, in the user's units; "": rate is constant */
+    double period;                 /* of the formula, user's units; GG_AUTO: none */
+    int64_t steps;                 /* of constant rate, in a period or in the run */
+  } shear;
   struct {
     double temperature, rotational_temperature; /* or GG_AUTO */
     double a2;                                  /* fourth cumulant of the velocities */
@@ -162,6 +167,10 @@ static inline bool gg_scene_scales_with_start(const gg_scene *s)
          !gg_flow_is_walled(s->flow);
 }
 
+/* protocol.c: the rate that is the unit of sheared flows: the absolute value at the start, or of a start from rest and
+ * of a formula the largest one. */
+double gg_scene_unit_rate(const gg_scene *scene);
+
 /* Inverse of the model's unit of time in flows without moving walls: the shear rate; v_0/d with v_0^2 = 2 T/m of the
  * start where that temperature is given and the only scale; else 1 of the user's, v_0 being a diameter per unit of
  * time.
@@ -169,7 +178,7 @@ static inline bool gg_scene_scales_with_start(const gg_scene *s)
 static inline double gg_scene_clock_rate(const gg_scene *s)
 {
   if (s->fixed.clock_rate != GG_AUTO) return s->fixed.clock_rate;
-  if (gg_flow_is_sheared(s->flow)) return s->shear_rate;
+  if (gg_flow_is_sheared(s->flow)) return gg_scene_unit_rate(s);
   if (s->start.temperature == GG_AUTO || !gg_scene_scales_with_start(s)) return 1;
   return sqrt(2 * s->start.temperature / s->species[0].mass) / s->species[0].diameter;
 }

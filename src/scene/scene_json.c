@@ -161,6 +161,10 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   case GG_FIELD_ERRORS: return errors_json(f, at);
   case GG_FIELD_VECTOR: return numbers_json(f, at, 3);
   case GG_FIELD_LIST: return list_json(f, at);
+  case GG_FIELD_RATE: {
+    const char *formula = (const char *)at + sizeof(double);
+    return *formula ? json_string(formula) : number_json(f, *(const double *)at);
+  }
   case GG_FIELD_FILE: return json_string(*(const char *)at ? at : f->special);
   case GG_FIELD_ENDS:
     return memcmp(at, (const double *)at + 1, sizeof(double)) ? numbers_json(f, at, 2)

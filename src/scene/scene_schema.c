@@ -86,6 +86,7 @@ static json_t *value_schema(const gg_field *f)
   case GG_FIELD_VECTOR: return list_schema(f, 3, 3);
   case GG_FIELD_ENDS: return json_pack("{s:[o, o]}", "anyOf", number_schema(f), list_schema(f, 2, 2));
   case GG_FIELD_LIST: return list_schema(f, 1, GG_LOCAL_DENSITIES);
+  case GG_FIELD_RATE: return json_pack("{s:[o, {s:s}]}", "anyOf", number_schema(f), "type", "string");
   case GG_FIELD_FILE: return json_pack("{s:s}", "type", "string");
   case GG_FIELD_CHANGES: return changes_schema();
   case GG_FIELD_SPECIES:

@@ -11,9 +11,9 @@
 
 gg_status gg_scene_speed_table_add(double speed, double value, char text[GG_LAWS_TEXT], gg_error *err)
 {
-  char v[40], x[40];
+  char v[GG_NUMBER_TEXT], x[GG_NUMBER_TEXT];
   const size_t used = strlen(text);
-  gg_scene_number_format(speed, v, sizeof v), gg_scene_number_format(value, x, sizeof x);
+  gg_io_number_format(speed, v), gg_io_number_format(value, x);
   const int added = snprintf(text + used, GG_LAWS_TEXT - used, "%s%s %s;", used ? "" : "table ", v, x);
   if (added < (int)(GG_LAWS_TEXT - used)) return GG_OK;
   return gg_base_fail(err, GG_BAD_INPUT, "a table has at most %d rows, and %d characters", GG_LAW_ROWS, GG_LAWS_TEXT);

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "common/expression.h"
 #include "base/memory.h"
 #include "base/spelling.h"
 #include "common/quantity.h"
@@ -238,6 +239,25 @@ static gg_status read_number(const input *in, double *value)
   if (!text || quoted || !parse_number(text, &x)) return reject_value(in);
   if (x < f->min || x > f->max || (f->above_min && x == f->min)) return reject_value(in);
   return *value = x, GG_OK;
+}
+
+/* A number, or a formula of t behind it. */
+static gg_status read_rate(const input *in, double *value)
+{
+  const char *text = gg_scene_scalar(in->node);
+  char *formula = (char *)(value + 1);
+  gg_expression e;
+  gg_error why;
+  double x;
+  if (!text || has_decimal_comma(text) || parse_number(text, &x) || !text[strspn(text, "0123456789+-.eE ")]) {
+    GG_TRY(read_number(in, value));
+    return *formula = '\0', GG_OK;
+  }
+  if (gg_common_expression_parse(&e, text, (const char *const[]){"t", NULL}, &why) != GG_OK)
+    return gg_scene_reject(in->r, in->node, in->key, "neither a number nor a formula of t: %s", why.message);
+  if (strlen(text) >= GG_FORMULA_TEXT)
+    return gg_scene_reject(in->r, in->node, in->key, "a formula has at most %d characters", GG_FORMULA_TEXT - 1);
+  return strcpy(formula, text), GG_OK;
 }
 
 static gg_status read_integer(const input *in, int64_t *value)
@@ -620,6 +640,7 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   case GG_FIELD_ERRORS: return read_errors(&in, value);
   case GG_FIELD_VECTOR: return read_numbers(&in, value, 3, 3);
   case GG_FIELD_LIST: return read_list(&in, value);
+  case GG_FIELD_RATE: return read_rate(&in, value);
   case GG_FIELD_FILE: return read_file_name(&in, value);
   case GG_FIELD_ENDS: return read_ends(&in, value);
   case GG_FIELD_CHANGES: return read_changes(&in, value);

@@ -11,7 +11,7 @@
 bool gg_theory_gaussian_relaxes(const gg_model *m)
 {
   const bool known = !m->walled && !m->law.name && !gg_model_is_injected(m) && !m->linear_response;
-  return known && (m->shear_rate != 0 || m->n_species > 1);
+  return known && (gg_model_is_sheared(m) || m->n_species > 1);
 }
 
 /* Initial state: one temperature for all; spins roll with the flow. */
@@ -105,7 +105,7 @@ static double fastest(const gg_model *m, const gg_gaussian state[], const gg_gau
   double most = 0;
   for (int i = 0; i < m->n_species; i++) {
     const double fed = m->bath.on ? m->bath.noise[i] : 0;
-    most = fmax(most, r->frequency[i] + 3 * m->shear_rate + 2 * fabs(m->bath.drag[i]) + 2 * m->bath.spin_drag[i] +
+    most = fmax(most, r->frequency[i] + 3 * fabs(m->shear_rate) + 2 * fabs(m->bath.drag[i]) + 2 * m->bath.spin_drag[i] +
                           3 * fed / gg_tensor_trace(state[i].M));
   }
   return most;
@@ -144,7 +144,7 @@ static double collision_rate(const gg_model *m, const gg_gaussian_rates *r)
  * directions are alike. */
 static double seconds_of(const gg_model *m)
 {
-  return m->rule == GG_FRICTIONAL && m->shear_rate != 0 ? 3e-3 : 2e-4;
+  return m->rule == GG_FRICTIONAL && gg_model_is_sheared(m) ? 3e-3 : 2e-4;
 }
 
 #define LONG 1e5 /* relaxations are shorter, in units of the fastest rate; longer times would show rounding */

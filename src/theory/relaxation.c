@@ -17,8 +17,9 @@
 
 const char *gg_theory_relaxation_name(const gg_model *m)
 {
-  const bool known = m->n_species == 1 && m->shear_rate == 0 && !m->walled && !m->law.name && !gg_model_is_injected(m);
-  if (gg_theory_gaussian_relaxes(m)) return m->shear_rate != 0 ? "Gaussian closure" : "Maxwellians";
+  const bool known =
+      m->n_species == 1 && !gg_model_is_sheared(m) && !m->walled && !m->law.name && !gg_model_is_injected(m);
+  if (gg_theory_gaussian_relaxes(m)) return gg_model_is_sheared(m) ? "Gaussian closure" : "Maxwellians";
   return !known ? NULL : m->rule == GG_SMOOTH ? "first Sonine" : "two Maxwellians";
 }
 
@@ -29,7 +30,7 @@ gg_relaxing gg_theory_relaxation_start(const gg_model *m)
   if (!gg_theory_gaussian_relaxes(m)) return x;
   gg_base_gsl_enter();
   gg_theory_gaussian_start(m, x.of);
-  if (m->shear_rate != 0) x.P = gg_theory_gaussian_stress(m, x.of);
+  if (gg_model_is_sheared(m)) x.P = gg_theory_gaussian_stress(m, x.of);
   gg_base_gsl_leave();
   return x;
 }
@@ -75,8 +76,15 @@ double gg_theory_relaxation_value(const gg_model *m, const gg_relaxing *x, gg_qu
   if (q == GG_Q_TEMPERATURE_RATIO) return x->theta / x->T;
   if (!gg_theory_gaussian_relaxes(m)) return q == GG_Q_A2 && m->rule == GG_SMOOTH ? x->a2 : NAN;
   if (species >= 0 && species < m->n_species) return m->mass[species] * gg_tensor_trace(x->of[species].M) / 3;
-  if (m->shear_rate == 0) return NAN;
+  if (!gg_model_is_sheared(m)) return NAN;
   return q == GG_Q_SPIN_Z ? spin_of(m, x) : stress_value(m, &x->P, q);
+}
+
+void gg_theory_relaxation_stress(const gg_model *m, gg_relaxing *x)
+{
+  gg_base_gsl_enter();
+  x->P = gg_theory_gaussian_stress(m, x->of);
+  gg_base_gsl_leave();
 }
 
 static double noise_of(const gg_model *m)
@@ -136,7 +144,7 @@ static gg_relaxing step(const gg_model *m, gg_relaxing x, double dt)
 static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
 {
   gg_theory_gaussian_relax(m, time, x);
-  if (m->shear_rate != 0) x->P = gg_theory_gaussian_stress(m, x->of);
+  if (gg_model_is_sheared(m)) x->P = gg_theory_gaussian_stress(m, x->of);
   x->T = x->theta = 0;
   for (int i = 0; i < m->n_species; i++) {
     const double share = m->mass[i] * m->fraction[i];

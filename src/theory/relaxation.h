@@ -23,6 +23,8 @@ gg_relaxing gg_theory_relaxation_start(const gg_model *model);
 gg_relaxing gg_theory_relaxation_lost(void);
 /* Value of a quantity; NaN: this theory has none. */
 double gg_theory_relaxation_value(const gg_model *model, const gg_relaxing *state, gg_quantity quantity);
+/* Set the stress of a sheared gas, at the present rate of the model. */
+void gg_theory_relaxation_stress(const gg_model *model, gg_relaxing *state);
 /* The state after a time; NaN if that takes more than the remaining work. */
 void gg_theory_relax(const gg_model *model, double time, gg_relaxing *state);
 /* gaussian_relaxation.c: moments alone. */

@@ -44,6 +44,9 @@ static void list_states(unsigned flows, char *text, size_t size)
 static gg_status check_flow(const gg_theory *theory, const gg_model *m, gg_error *err)
 {
   char states[320];
+  if (gg_model_is_sheared(m) && !(m->shear_rate > 0))
+    return gg_theory_reject(err, theory->name, "describes steady shear; at the end of this run the rate is %s",
+                            m->shear_rate < 0 ? "below 0" : "0, or it changes all the time");
   if (!theory->flows || (theory->flows & GG_FLOW_BIT(m->flow))) return GG_OK;
   list_states(theory->flows, states, sizeof states);
   return gg_theory_reject(err, theory->name, "describes %s; this scene is %s", states, gg_flow_of(m->flow)->state);

@@ -134,17 +134,20 @@ static void the_time_limit_ends_a_long_interval(void **state)
     gg_run_callbacks callbacks = {.context = &c, .checkpoint = keep};
     gg_result *r = NULL;
     gg_error err = {0};
-    double before = now(), reached = 0;
+    double before = now(), reached = 0, limit = 0;
     for (int piece = 0; piece < 2; piece++) {
       gg_archive from = {0};
       assert_int_equal(gg_base_archive_append(&from, &c.kept, NULL), GG_OK);
-      s.run.time_limit = 0.2 * (piece + 1);
-      assert_int_equal(gg_run_scene(&s, piece ? &from : NULL, 1, &callbacks, &r, &err), GG_FAILED);
-      assert_non_null(strstr(err.message, "time limit"));
-      assert_true(r->final.time > reached);
-      reached = r->final.time;
+      /* On a busy machine the limit may pass before the gas moves: within the start, which has no result yet. */
+      for (double last = reached; reached == last; gg_result_free(r)) {
+        s.run.time_limit = limit += 0.2;
+        assert_true(limit < 10);
+        assert_int_equal(gg_run_scene(&s, piece ? &from : NULL, 1, &callbacks, &r, &err), GG_FAILED);
+        assert_non_null(strstr(err.message, r ? "time limit" : "time limit reached before the start was done"));
+        if (r) reached = r->final.time;
+        assert_true(reached >= last);
+      }
       gg_base_archive_clear(&from);
-      gg_result_free(r);
     }
     assert_true(now() - before < 20); /* and not minutes */
     gg_base_archive_clear(&c.kept);

@@ -75,7 +75,7 @@ GG_INLINE void start(gg_dsmc_features features, gg_dsmc_pass_state *state, const
       .loss_scale = (gg_real)pass->loss_scale,
       .floor = (gg_real)pass->floor,
       .shift = (gg_real)pass->shift,
-      .s0 = features.shear == GG_DSMC_SHEARED_DENSE ? (gg_real)(GG_DSMC_SHEAR_SHARE * pass->shift) : 0,
+      .s0 = features.shear == GG_DSMC_SHEARED_DENSE ? (gg_real)(GG_DSMC_SHEAR_SHARE * fabs(pass->shift)) : 0,
       .scale = pass->bound_scale,
       .margin = pass->bound_margin,
       .root = (gg_real)(sqrt(pass->bound_scale) * (1 + 1e-6)),

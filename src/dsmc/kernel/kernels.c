@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dsmc/kernel/kernels.h"
 
+#include <math.h>
+
 #include "dsmc/parallel/schedule.h"
 
 #define PRECISION(precision, name)                                                                                     \
@@ -54,7 +56,7 @@ double gg_dsmc_block_pairs_per_unit(gg_dsmc_range one, gg_dsmc_range two, bool t
 double gg_dsmc_sure_majorant(gg_dsmc_path path, gg_dsmc_features features, double speed, double shift)
 {
   if (features.shear != GG_DSMC_SHEARED_DENSE) return speed;
-  return speed + (path == GG_DSMC_PLAIN ? 0.5 : GG_DSMC_SHEAR_SHARE) * shift; /* |k_x k_y| <= 1/2 */
+  return speed + (path == GG_DSMC_PLAIN ? 0.5 : GG_DSMC_SHEAR_SHARE) * fabs(shift); /* |k_x k_y| <= 1/2 */
 }
 
 void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_dsmc_features features,

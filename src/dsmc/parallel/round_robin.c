@@ -126,7 +126,7 @@ static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, in
   pass.candidates = gg_dsmc_candidates(s->common.floor > 0, mean, &schedule->remainder[pair][one][two], &at->rng);
   pass.strain_step = pass.candidates ? span / (double)pass.candidates : 0;
   pass.strain = strain + 0.5 * pass.strain_step;
-  gg_dsmc_ensemble_strain_bounds(&at->bounds, strain, r->hold);
+  gg_dsmc_ensemble_strain_bounds(&at->bounds, span < 0 ? strain - r->hold : strain, r->hold);
   pass.bound_scale = at->bounds.bound_scale;
   if (r->hold > 0) pass.bound_margin = gg_dsmc_bound_growth(r->hold);
   gg_dsmc_collide_pass(r->d->ensemble.kernels, s->path, s->features, &pass, &schedule->lanes[at->first], &at->rng);
@@ -199,7 +199,7 @@ static const gg_dsmc_pass *run(rounds *r, double expected)
   const int columns = e->segments / 2;
   uint32_t need[GG_MOST_PARTS];
   find_needs(r, r->n * columns, need);
-  gg_dsmc_ensemble_strain_bounds(e, r->strain + r->substep[0].begin * r->span, r->hold);
+  gg_dsmc_ensemble_strain_bounds(e, r->strain + r->substep[0].begin * r->span - (r->span < 0 ? r->hold : 0), r->hold);
   for (int s = 0; s < e->segments; s++) {
     r->bounds[s] = (speed_bounds){e->bound_scale, e->bound_strain, e->bound_width};
     for (int q = 0; q < r->pairs; q++) sums_of(r, s)[q] = (gg_dsmc_pass){0};

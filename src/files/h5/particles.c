@@ -60,7 +60,7 @@ static void write_units(gg_h5 *h, bool boxed, const gg_model *model, const gg_fr
 static void write_frame_of_reference(gg_h5 *h, bool boxed, const gg_model *model)
 {
   const char *text =
-      model->shear_rate == 0 ? "laboratory: no flow is imposed"
+      !gg_model_is_sheared(model) ? "laboratory: no flow is imposed"
       : boxed ? "peculiar: relative to the imposed flow; in the laboratory x has shear_rate (y - L_y/2) more, "
                 "y the position and L_y = box/edges/value[1][1]"
               : "peculiar: relative to the flow at the one point that the ensemble stands for";
@@ -122,7 +122,7 @@ static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_
  * cools without shear comes to times beyond all numbers.) */
 static double tilt_at(const gg_scene *scene, const gg_model *model, double time)
 {
-  if (model->shear_rate == 0) return 0;
+  if (!gg_model_is_sheared(model)) return 0;
   const double strain = scene ? gg_scene_strain(scene, time) : model->shear_rate * time;
   return remainder(strain * model->box[1], model->box[0]);
 }

@@ -36,10 +36,11 @@ bool gg_md_measure_around(gg_md_parallel *p)
 {
   const gg_md *e = p->engine;
   const double rho = e->cells.reach, rate = e->model.shear_rate, *w = e->cells.width;
-  if (e->search.kind != GG_MD_NEIGHBOUR_LISTS || rate == 0) return true;
-  const double span = gg_md_queue_span(&e->queue), age = e->search.lists.radius / e->search.lists.shrinkage;
-  const double strain[2] = {rate * (p->begin * e->queue.width - age) - 1e-6,
-                            rate * fmin(p->end * e->queue.width, span) + 1e-6};
+  if (e->search.kind != GG_MD_NEIGHBOUR_LISTS || !gg_model_is_sheared(&e->model)) return true;
+  const double span = gg_md_queue_span(&e->queue),
+               age = rate != 0 ? e->search.lists.radius / e->search.lists.shrinkage : 0, more = rate < 0 ? -1e-6 : 1e-6;
+  const double strain[2] = {rate * (p->begin * e->queue.width - age) - more,
+                            rate * fmin(p->end * e->queue.width, span) + more};
   for (int l = -1; l <= 1; l++) {
     const double height[2] = {fmax((l - 1) * w[1], -rho), fmin((l + 1) * w[1], rho)};
     double least = INFINITY, most = -INFINITY;
@@ -81,7 +82,7 @@ int gg_md_cells_around(const gg_md_parallel *p, uint32_t cell, uint32_t index[GG
   const int32_t at[3] = {(int32_t)(cell % (uint32_t)e->cells.n[0]), (int32_t)(row % (uint32_t)e->cells.n[1]),
                          (int32_t)(row / (uint32_t)e->cells.n[1])};
   if (e->search.kind == GG_MD_COMOVING_ROWS) return around_in_rows(e, at, index);
-  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && e->model.shear_rate != 0) return around_in_flow(p, at, index);
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && gg_model_is_sheared(&e->model)) return around_in_flow(p, at, index);
   const uint32_t *x = e->cells.part[0] + at[0], *y = e->cells.part[1] + at[1], *z = e->cells.part[2] + at[2];
   int n = 0;
   for (int m = -1; m <= 1; m++)

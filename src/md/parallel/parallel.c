@@ -35,7 +35,7 @@ const char *gg_md_serial_because(const gg_model *m)
   if (m->walled) return "walls";
   if (gg_common_heat_of(m) != GG_UNHEATED) return "a thermostat: it couples all grains";
   if (m->law.e) return "a law of restitution of your own";
-  if (n[0] < 4 || n[1] < 4 || n[2] < 2 * FEWEST_LAYERS || (kind == GG_MD_PLAIN_CELLS && m->shear_rate != 0))
+  if (n[0] < 4 || n[1] < 4 || n[2] < 2 * FEWEST_LAYERS || (kind == GG_MD_PLAIN_CELLS && gg_model_is_sheared(m)))
     return "a small box";
   return NULL;
 }

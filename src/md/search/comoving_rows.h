@@ -10,8 +10,11 @@
  *   own:       -1  0 +1
  *   below:     -1  0 +1 +2  behind by f
  *
+ * In reversed shear f falls from w to 0, and the rows shift back by a cell.
+ *
  * A grain that enters another cell searches the cells that are new to it. When the rows shift, every grain searches the
- * cells above that come within reach (-2). So of two grains in cells within reach one has always tested the other. */
+ * cells above that come within reach (-2; +1 after a shift back). So of two grains in cells within reach one has always
+ * tested the other. */
 #ifndef GG_MD_SEARCH_COMOVING_ROWS_H
 #define GG_MD_SEARCH_COMOVING_ROWS_H
 
@@ -221,14 +224,16 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 static __attribute__((noinline)) void gg_md_search_shifted_rows(gg_md *e)
 {
   e->k.now = e->search.rows.next_shift;
-  gg_md_shift_rows_by_a_cell(e);
+  const bool forwards = e->model.shear_rate > 0;
+  const int come = forwards ? -2 : 1;
+  gg_md_shift_rows_by_a_cell(e, forwards ? 1 : -1);
   for (uint32_t i = 0; i < e->n; i++) {
     const gg_md_node *node = &e->node[i];
     gg_md_search s = {.candidates = e->candidates};
     gg_md_grain here = e->grain[i];
     here.r = gg_md_position(e, HAS_GRAVITY, &here, e->k.now);
     gg_md_begin_search(&s, i, &here, node->collision, node->partner);
-    gg_md_scan_window(e, &s, (gg_md_window){{0, -1}, {-2, -2}, {0, -1}, {-1, 1}});
+    gg_md_scan_window(e, &s, (gg_md_window){{0, -1}, {come, come}, {0, -1}, {-1, 1}});
     if (IS_SIMD) gg_md_try_candidates(e, &s);
     if (s.collision < node->collision) gg_md_schedule(e, &s);
   }

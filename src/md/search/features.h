@@ -19,7 +19,7 @@ enum {
   IS_SIMD = GG_SIMD, /* eight pairs at a time */
 };
 #else
-#define IS_SHEARED (e->model.shear_rate != 0)
+#define IS_SHEARED gg_model_is_sheared(&e->model)
 #define IS_WALLED (e->model.walled)
 #define HAS_GRAVITY (e->falls)
 #define IS_MIXTURE (e->model.n_species > 1)

@@ -31,8 +31,10 @@ GG_INLINE void gg_md_collect_sheared(const gg_md *e, uint32_t i, gg_md_search *s
       if (below > rho || above < -rho) continue;
       if (below < -rho) below = -rho;
       if (above > rho) above = rho;
-      int32_t from = (int32_t)gg_floor((centre.x - rho - strain * above - shift.x) * c->inverse[0]);
-      int32_t to = (int32_t)gg_floor((centre.x + rho - strain * below - shift.x) * c->inverse[0]);
+      const double most = strain < 0 ? strain * below : strain * above,
+                   least = strain < 0 ? strain * above : strain * below;
+      int32_t from = (int32_t)gg_floor((centre.x - rho - most - shift.x) * c->inverse[0]);
+      int32_t to = (int32_t)gg_floor((centre.x + rho - least - shift.x) * c->inverse[0]);
       if (to - from >= c->n[0]) to = from + c->n[0] - 1;
       const uint32_t *row = gg_md_cell_at(c, (int32_t[3]){0, iy, iz});
       for (int32_t k = from; k <= to; k++) {

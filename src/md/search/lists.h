@@ -5,8 +5,8 @@
  * whose skin centres were then within rho = sigma + 2 s of its own; lists are symmetric. Two grains that are not listed
  * cannot touch while both are in their skins. A grain that leaves its skin gets a new one, and the lists are updated.
  *
- * Under shear the centres move with the flow at their height, and skins shrink at the rate kappa = shear_rate rho/4:
- * two centres at a distance R approach at a speed of at most shear_rate R/2, so the condition holds until the exit. A
+ * Under shear the centres move with the flow at their height, and skins shrink at the rate kappa = |shear_rate| rho/4:
+ * two centres at a distance R approach at a speed of at most |shear_rate| R/2, so the condition holds until the exit. A
  * centre is stored by its position at the start of the epoch, which does not change: the cells of the centres are at
  * rest.
  *

@@ -69,12 +69,13 @@ GG_INLINE void gg_md_scan_moving_row(const gg_md *e, gg_md_search *s, int side)
   double w = c->width[0], D = side * gg_md_offset(&e->box, e->k.now);
   double left = node->cell[0] * w - c->reach, right = (node->cell[0] + 1) * w + c->reach;
   int32_t from = (int32_t)gg_floor((left - D) / w), to = (int32_t)gg_floor((right - D) / w);
-  if (side > 0)
-    from--; /* the row moves right: one more cell on the left */
+  const bool right_going = (side > 0) == (e->box.image_velocity >= 0);
+  if (right_going)
+    from--; /* one more cell on the left */
   else
     to++;
-  double room = side > 0 ? left - (from * w + D) : (to + 1) * w + D - right;
-  double valid = e->k.now + room / e->box.image_velocity;
+  double room = right_going ? left - (from * w + D) : (to + 1) * w + D - right;
+  double valid = e->k.now + room / fabs(e->box.image_velocity);
   if (valid < s->valid) s->valid = valid;
   for (int32_t z = node->cell[2] - 1; z <= node->cell[2] + 1; z++) {
     gg_vec shift = {D, side * e->box.edge[1], 0};

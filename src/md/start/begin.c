@@ -43,11 +43,8 @@ static gg_status predict_all(gg_md *e, gg_error *err)
   return GG_OK;
 }
 
-gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
+static gg_status enter_all(gg_md *e, gg_error *err)
 {
-  if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
-  GG_TRY(gg_md_kicks_make(e, err));
-  GG_TRY(gg_md_poll_stop(e, err));
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
     if (!gg_md_build_lists(e, e->model.stop)) return gg_md_start_stopped(e, err);
   } else {
@@ -55,7 +52,22 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
     GG_TRY(gg_md_poll_stop(e, err));
     if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   }
+  return gg_md_poll_stop(e, err);
+}
+
+gg_status gg_md_predict_anew(gg_md *e, gg_error *err)
+{
+  GG_TRY(enter_all(e, err));
+  gg_md_queue_reset(&e->queue, e->queue.width);
+  return predict_all(e, err);
+}
+
+gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
+{
+  if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
+  GG_TRY(gg_md_kicks_make(e, err));
   GG_TRY(gg_md_poll_stop(e, err));
+  GG_TRY(enter_all(e, err));
   const double early = gg_md_early_temperature(e, T);
   e->k.mean_free_time = 1 / fmax(gg_common_model_collision_rate(&e->model, early), 1e-300);
   gg_md_begin_contact_time(e, T);

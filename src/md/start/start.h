@@ -15,6 +15,9 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err);
 /* The same at the initial temperature of the model. */
 gg_status gg_md_begin(gg_md *e, gg_error *err);
 
+/* Predict all events anew, in the grid that there is. */
+gg_status gg_md_predict_anew(gg_md *e, gg_error *err);
+
 /* equilibrium.c: true if a run of this model begins at positions of a fluid in equilibrium. */
 bool gg_md_starts_in_equilibrium(const gg_model *model);
 /* Create an engine at such positions by the operations `md`. `motion`: velocities and spins; NULL: fresh ones. */
