@@ -6,6 +6,7 @@
 
 #include "cli/definition.h"
 #include "cli/options.h"
+#include "cli/pages.h"
 
 /* Print text with Markdown's special characters escaped. */
 static void put(const char *text)
@@ -72,25 +73,9 @@ static void print_words(const char *key)
 
 void gg_cli_print_scene_page(void)
 {
-  printf(
-      "# Scene keys\n\n"
-      "`graingas --scene-page` prints this page from the table that reads scenes; a test keeps both equal.\n\n"
-      "A scene is a YAML file. Only `flow` and `phi` are required. A dot separates section and key: `collision.e` is "
-      "`e` under `collision:` in the file and `--set collision.e=0.8` on the command line. Lengths, masses and times "
-      "are in any consistent units; a key without a unit is a pure number. `graingas info SCENE.yaml` prints every key "
-      "with its value; `graingas info KEY` prints one row of this page.\n\n");
+  fputs(gg_cli_page_scene, stdout);
   print_keys(GG_CATALOGUE_KEYS, true);
-  printf(
-      "\nWith gravity along y, the unit of `md.contact_time` is sqrt(d/g). For weak gravity (m g L\\_y < T) it is the "
-      "shorter of sqrt(d/g) and the mean free time. Collisions of unlike grains within the contact time "
-      "lose no energy at all.\n\n"
-      "`collision.speed: auto` is the diameter times the shear rate (couette: times the mean shear rate), or the "
-      "initial thermal speed v\\_0 in cooling and heated gases.\n\n"
-      "The **headline quantities** of a flow are those whose errors end a run (`run.relative_error`). `graingas info "
-      "SCENE.yaml` lists them.\n");
-  printf("\n## Members of a species\n\n`species` is a list of maps. Results count lengths and masses in those of the "
-         "first species. A pair of species has both numbers as its name: `12`; with two digits `1-10`. A map by pair "
-         "names every pair, or gives `other` for the rest; with `--set` the rest keeps its value.\n\n");
+  fputs(gg_cli_page_scene_notes, stdout);
   print_keys(GG_CATALOGUE_SPECIES_KEYS, false);
   printf("\n## Words\n");
   gg_entry f;
@@ -109,24 +94,7 @@ void gg_cli_print_quantities_page(void)
   static const char *const scales[] = {"{flow: usf, phi: 0.1}", "{flow: hss, phi: 0.1}"};
   gg_scene *scene[2] = {NULL, NULL};
   gg_entry q;
-  printf(
-      "# Quantities\n\n"
-      "`graingas --quantities-page` prints this page from the program's table of quantities; a test keeps both "
-      "equal. `graingas info NAME` prints one row.\n\n"
-      "A result has a mean and a standard error of each quantity that its scene has. The others are `null`, with the "
-      "reason. $\\langle\\cdot\\rangle$ is the mean over grains and samples.\n\n"
-      "| symbol | meaning |\n| --- | --- |\n"
-      "| $\\mathbf C$ | velocity relative to the imposed flow; between walls, relative to the local mean; see the key "
-      "`frame` |\n"
-      "| $\\mathbf\\Omega$ | spin relative to the mean spin |\n"
-      "| $m$, $I$ | mass and moment of inertia; the mass of species 1 is 1 |\n"
-      "| $\\sigma$ | distance of two centres at contact |\n"
-      "| $\\mathbf k$ | unit vector from the first grain to the second |\n"
-      "| $\\mathbf J$ | impulse on the second grain |\n"
-      "| $N$, $V$, $n$, $t$ | grains, volume, number density, time |\n"
-      "| $\\dot\\gamma$ | shear rate, gamma in units |\n"
-      "| $\\nu_0$ | reference collision rate ([theories](theories.md)) |\n"
-      "| d, v\\_0, rho\\_p in units | diameter of species 1, initial thermal speed, 6m/(pi d^3) |\n\n");
+  fputs(gg_cli_page_quantities, stdout);
   for (int k = 0; k < 2; k++) gg_scene_parse(scales[k], NULL, &scene[k], NULL);
   printf("| name | meaning | definition | unit with shear | unit without | measured in | theories |\n"
          "| --- | --- | --- | --- | --- | --- | --- |\n");
@@ -146,9 +114,7 @@ void gg_cli_print_quantities_page(void)
     put(theories);
     printf(" |\n");
   }
-  printf("\n`c_i` and `temperature_i` exist for each species of a mixture.\n\n"
-         "In the Boltzmann limit (phi = 0) lengths are in 1/(n d^2), stresses in n m times a velocity squared; there "
-         "is no collisional transfer.\n");
+  fputs(gg_cli_page_quantities_notes, stdout);
   for (int k = 0; k < 2; k++) gg_scene_free(scene[k]);
 }
 
