@@ -56,6 +56,30 @@ def test_slurm_array():
         check(re.search(rf"^(?:.*,)?{e},", rows, re.MULTILINE), e, rows[:300])
 
 
+def test_exercises():
+    """The closed forms of the solutions are theories of graingas, and their numbers stand in the page."""
+    text = page("exercises")
+    chi = lambda phi: (1 - phi / 2) / (1 - phi) ** 3
+    e, beta, K = 0.95, 0, 0.4
+    h = (1 + e) / 2
+    ratio, zeta, nu = 5 * (1 - e) / (3 - e) / 3, 4 / 3 * math.sqrt(math.pi) * (1 - e * e), 16 / 5 * math.sqrt(math.pi) * h * (2 - h)
+    n = 6 * 0.3 / math.pi
+    rows = (("enskog", "{flow: equilibrium, phi: 0.3}", {"collision_rate": (4 * n * chi(0.3) * math.sqrt(math.pi / 2), "7.1182"),
+                                                         "compressibility_factor": (1 + 1.2 * chi(0.3), "3.9738")}),
+            ("haff1983", "{flow: hcs, phi: 0.1, collision: {e: 0.8}}", {"cooling_rate": (5 / 12 * 0.36 * chi(0.1), "0.1955")}),
+            ("grad", "{flow: usf, phi: 0, collision: {e: 0.95}}", {"N1": (3 * ratio, "0.1220"), "temperature": (2 / 3 * (1 - ratio) / zeta / nu, "0.4897")}),
+            ("lun1991", "{flow: usf, phi: 0.01, collision: {e: 0.9, beta: 0}}",
+             {"temperature_ratio": (K * (1 + beta) / (1 + 2 * K - beta), "0.2222")}))
+    for theory, scene, values in rows:
+        done = subprocess.run([GRAINGAS, "theory", "-", "--json", "--theory", theory], input=scene, capture_output=True, text=True)
+        found = json.loads(done.stdout)["theory"][theory]
+        for name, (value, number) in values.items():
+            check(abs(found[name]["mean"] / value - 1) < 1e-12, theory, name, found[name], value)
+            check(abs(value - float(number)) < 6e-5 and number in text, number)
+    for command in re.findall(r"`(\{flow: .*?\}+)`", text):
+        check(subprocess.run([GRAINGAS, "info", "-"], input=command, capture_output=True, text=True).returncode == 0, command)
+
+
 def test_mpi_gives_the_same_digits():
     """As without MPI, to the last digit."""
     if not shutil.which("mpirun"):
