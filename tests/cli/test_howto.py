@@ -80,6 +80,34 @@ def test_exercises():
         check(subprocess.run([GRAINGAS, "info", "-"], input=command, capture_output=True, text=True).returncode == 0, command)
 
 
+def peers(*more):
+    """validation/peers with a peer that burns a twentieth of a second and prints its collisions."""
+    with open("s.yaml", "w", encoding="utf-8") as file:
+        file.write("flow: hcs\nphi: 0.1\nparticles: 500\nrun: {collisions: 200, warmup: 20}\n")
+    fake = f"{sys.executable} -c 'import time\nwhile time.process_time() < 0.05: pass\nprint(\"collisions: 1e3\\ncollisions: 4e5\")'"
+    return subprocess.run([sys.executable, os.path.join(SOURCE, "validation", "peers", "peers.py"), "--graingas", GRAINGAS, "--scene", "s.yaml",
+                           "--peer", "other", "--command", fake, "--repeat", "2", *more], capture_output=True, text=True)
+
+
+def test_peers():
+    """Rates from the last number that the peer prints or from --events, medians and their ratio; errors with a reason."""
+    for more, events in ((("--pattern", r"collisions: ([0-9.e+]+)"), 4e5), (("--events", "8e5"), 8e5)):
+        done = peers(*more)
+        check(done.returncode == 0, done.stderr)
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines() if line.startswith("| ")][2:]
+        check([row[0] for row in rows] == ["graingas md", "other"] and rows[1][3] == "1", rows)
+        check(events / 2 < float(rows[1][1]) <= events / 0.05 and abs(float(rows[0][3]) / (float(rows[0][1]) / float(rows[1][1])) - 1) < 0.01, rows)
+        for row in rows:
+            low, high = map(float, row[2].split(" to "))
+            check(0 < low <= float(row[1]) <= high, row)
+    done = peers("--pattern", "nothing ([0-9]+)")
+    check(done.returncode == 1 and "nothing in the output" in done.stderr, done.stderr)
+    done = peers("--pattern", "collisions")
+    check(done.returncode == 2 and "one group" in done.stderr, done.stderr)
+    done = peers("--events", "1", "--command", "exit 3")
+    check(done.returncode == 1 and "exit code 3" in done.stderr, done.stderr)
+
+
 def test_mpi_gives_the_same_digits():
     """As without MPI, to the last digit."""
     if not shutil.which("mpirun"):
