@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What editors and type checkers see of the module: names.py is of the library's tables, and pyright, if it is installed,
+"""Types of the module for editors and type checkers: names.py is of the library's tables, and pyright, if it is installed,
 accepts right programs and finds wrong ones."""
 import os
 import shutil

@@ -38,7 +38,7 @@ def project():
 
 
 def recipe_of_spack():
-    """What package.py says, run with a spack of a few lines."""
+    """Run package.py with a spack of a few lines; its statements."""
     said = {"depends": {}, "license": [], "version": [], "variant": []}
     spack = types.ModuleType("spack.package")
     spack.MesonPackage = object

@@ -22,7 +22,7 @@ ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 
 
 def timed(command, **more):
-    """What a command prints, and its processor time with that of its children."""
+    """Output of a command, and its processor time with that of its children."""
     with tempfile.TemporaryFile("w+") as out:
         process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, **more)
         _, status, usage = os.wait4(process.pid, 0)
