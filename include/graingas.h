@@ -1643,6 +1643,15 @@ GG_API gg_status gg_scene_begin(const char *flow, char **text, gg_error *err);
  */
 GG_API gg_status gg_schema_to_json(char **text, gg_error *err);
 
+/**
+ * References of the program and of methods, as BibTeX.
+ * @param words names of engines, theories, contact values and laws, with blanks or commas between them; "": the program
+ * @param n receives the number of words that have a reference; NULL: not needed
+ * @param text receives the text, to be freed with free()
+ * @return GG_OK, or an error status
+ */
+GG_API gg_status gg_cite(const char *words, size_t *n, char **text, gg_error *err);
+
 /* ---- Words for people ---- */
 
 /**

@@ -11,6 +11,7 @@ Numbers have the units of results (c["temperature"].unit): lengths in the diamet
 """
 from . import _c
 from . import catalogue, plot
+from .cite import cite
 from .comparison import Comparison, Theory
 from .curves import Curve
 from .errors import BadFile, BadInput, Busy, GraingasError, NotFound, PartialResult, RunFailed, text
@@ -30,8 +31,8 @@ from .trajectory import Trajectory, trajectory
 __version__ = text(_c.lib.gg_version())
 
 __all__ = [  # what help(graingas) shows
-    "BadFile", "BadInput", "Busy", "catalogue", "compare", "Comparison", "Curve", "define_law", "define_observable",
-    "define_theory", "DoesNotApply", "Estimate", "export", "GraingasError", "Grains", "Grid", "local_fluxes",
+    "BadFile", "BadInput", "Busy", "catalogue", "cite", "compare", "Comparison", "Curve", "define_law",
+    "define_observable", "define_theory", "DoesNotApply", "Estimate", "export", "GraingasError", "Grains", "Grid", "local_fluxes",
     "LocalFluxes", "NotFound", "PartialResult", "plot", "read", "relax", "Relaxation", "Result", "run", "RunFailed",
     "scan", "Scene", "Simulation", "Sweep", "sweep", "theories", "Theory", "theory", "TimeSeries", "Trajectory",
     "trajectory", "validate", "Verdict",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
 from collections.abc import Mapping
 from typing import Optional
@@ -12,6 +13,7 @@ from .arguments import real
 from .curves import curves_by_name, curves_of
 from .errors import ByName, NotFound, check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
+from .names import Quantity
 from .result import Result, bytes_of, from_bytes, iter_texts, write
 from .scene import Scene
 from .structs import Record, new, values
@@ -21,7 +23,7 @@ ffi = _c.ffi
 ENGINES = "md", "dsmc"
 
 
-class Theory(Mapping):
+class Theory(Mapping[str, float]):
     """Answers of a theory: theory["shear_viscosity"] is a number in units of results.
 
     name, title, citation, assumptions
@@ -38,7 +40,7 @@ class Theory(Mapping):
         look_up(function, self._comparison._pointer, encode(self.name), encode(quantity, "quantity"), found, *more)
         return found[0]
 
-    def __getitem__(self, quantity: str) -> float:
+    def __getitem__(self, quantity: Quantity | str) -> float:
         found = self._value(quantity, lib.gg_comparison_theory_value, ffi.NULL)
         if math.isnan(found):
             raise NotFound(f"{self.name} gives no {quantity}: {self.reason or 'it does not answer it in this scene'}")
@@ -134,7 +136,7 @@ class Row:
         return f"{self.name} [{self.unit}]  md {self.md}  dsmc {self.dsmc}  z {self.z:+.1f}{theories}"
 
 
-class Comparison(Mapping):
+class Comparison(Mapping[str, Row]):
     """Both engines and the theories on one scene: c["temperature"].md, .dsmc, .z, .theory["lun1991"].
 
     A mapping over quantities, in the order of tables. md and dsmc are the Results (None: `refusals` has the reason).
@@ -182,7 +184,7 @@ class Comparison(Mapping):
     def _quantities(self):
         return list(self._table_rows())
 
-    def __getitem__(self, quantity: str) -> Row:
+    def __getitem__(self, quantity: Quantity | str) -> Row:
         rows = self._table_rows()
         if quantity not in rows:
             look_up(lib.gg_comparison_agreement, self._pointer, encode(quantity, "quantity"), ffi.NULL, ffi.NULL)
@@ -239,6 +241,10 @@ class Comparison(Mapping):
         made = ffi.new("char **")
         check(lib.gg_comparison_to_json, self._pointer, made)
         return owned_text(made)
+
+    def to_dict(self) -> dict:
+        """The document of `graingas compare --json`."""
+        return json.loads(self.to_json())
 
     def to_bytes(self) -> bytes:
         """The file in memory; Comparison.from_bytes(content) reads it."""

@@ -150,22 +150,40 @@ def _reference(row):
     return row.dsmc if np.isnan(row.md.mean) else row.md
 
 
+FAR = 0.5  # ratios further from 1 than this do not set the scale
+
+
+def _scale(ax, ratios):
+    """Sets the limits by the ratios near 1, and marks the others at the edge: a theory without N1 does not squash the
+    rest."""
+    near = [abs(r - 1) for solver in ratios for r in solver[0] if abs(r - 1) <= FAR]
+    span = 1.2 * max([0.02, *near])
+    ax.set_ylim(1 - span, 1 + span)
+    for solver, colour in ratios:
+        for x, ratio in enumerate(solver):
+            if abs(ratio - 1) > span:
+                ax.plot(x, 1 + np.sign(ratio - 1) * 0.97 * span, "^" if ratio > 1 else "v", color=colour)
+
+
 @styled
 def plot_comparison(comparison, quantities=None, ax=None):
     """Each solver over md (or dsmc), quantity by quantity."""
     ax = new_axes(ax)
     names = [quantities] if isinstance(quantities, str) else quantities or _main_quantities(comparison)
     reference = [_reference(comparison[name]).mean for name in names]
-    x = np.arange(len(names))
+    x, ratios = np.arange(len(names)), []
     for i, engine in enumerate(("md", "dsmc")):
         if getattr(comparison, engine) is not None:
             rows = [getattr(comparison[name], engine) for name in names]
             mean, error = np.array([[r.mean, r.error] for r in rows]).T / np.array(reference)
             ax.errorbar(x, mean, errors(abs(error)), fmt=MARKERS[i], mfc="none", color=COLOURS[i], label=engine)
+            ratios.append((mean, COLOURS[i]))
     theories = [theory for theory in comparison.theories.values() if any(name in theory for name in names)]
     for i, theory in enumerate(theories, 2):
-        ratios = [theory[name] / m if name in theory else np.nan for name, m in zip(names, reference)]
-        ax.plot(x, ratios, "_", markersize=9, color=COLOURS[i % 7], label=theory.name)
+        answers = [theory[name] / m if name in theory else np.nan for name, m in zip(names, reference)]
+        ax.plot(x, answers, "_", markersize=9, color=COLOURS[i % 7], label=theory.name)
+        ratios.append((answers, COLOURS[i % 7]))
+    _scale(ax, ratios)
     ax.axhline(1, color="grey", linewidth=0.5)
     texts = [symbol_text(name, comparison[name].symbol) for name in names]
     letters = max(len(re.sub(r"\\[a-zA-Z]+", "x", text).translate(dict.fromkeys(b"${}^"))) for text in texts)

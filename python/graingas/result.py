@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import math
 from collections import namedtuple
 from collections.abc import Mapping
@@ -14,6 +15,7 @@ from .curves import Curve, result_curves
 from .errors import check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
 from .grains import Grains, copy_grains
+from .names import Quantity
 from .scene import Scene
 from .structs import Record, array, new, values
 
@@ -22,7 +24,7 @@ ffi = _c.ffi
 History = namedtuple("History", "time value")
 
 
-class Result(Mapping):
+class Result(Mapping[str, Estimate]):
     """Means with standard errors of a run: result["temperature"] is an Estimate.
 
     A mapping over the quantities that have a mean. `partial` says why the run ended before its stopping criteria; None
@@ -39,7 +41,7 @@ class Result(Mapping):
         look_up(lib.gg_result_find, self._pointer, encode(quantity, "quantity"), found)
         return Estimate._of(found, self)
 
-    def __getitem__(self, quantity: str) -> Estimate:
+    def __getitem__(self, quantity: Quantity | str) -> Estimate:
         return self.find(quantity)
 
     def _all(self):
@@ -135,6 +137,10 @@ class Result(Mapping):
         made = ffi.new("char **")
         check(lib.gg_result_to_json, self._pointer, made)
         return owned_text(made)
+
+    def to_dict(self) -> dict:
+        """The document of `graingas run --json`."""
+        return json.loads(self.to_json())
 
     def to_bytes(self) -> bytes:
         """The file in memory; Result.from_bytes(content) reads it."""

@@ -7,11 +7,12 @@ import json
 import os
 import re
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any, Mapping as MappingOf
 
 from . import _c, calls, catalogue, yaml
 from .errors import BadInput, check, encode, lib, look_up, not_found, owned_text, text
 from .handles import Handle
+from .names import SceneKeys
 from .structs import Record, new, values
 
 ffi = _c.ffi
@@ -95,7 +96,13 @@ class Group(Mapping):
         return "\n".join(f"{self._name}.{name}: {getattr(self, name)}" for name in dir(self))
 
 
-class Scene(Mapping):
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .names import KeyWords
+
+
+class Scene(Mapping, SceneKeys):
     """The description of a simulation: a YAML file or YAML text, and keys.
 
     Scene("usf.yaml", e=0.8)
@@ -109,7 +116,7 @@ class Scene(Mapping):
     and `s.help("phi")` explain a key. Raises BadInput with the allowed values, BadFile.
     """
 
-    def __init__(self, source=None, **keys):
+    def __init__(self, source: str | os.PathLike | MappingOf[str, Any] | None = None, **keys: Unpack[KeyWords]):
         changes = _flatten(keys)
         pointer = _load(source, changes)
         self._adopt(pointer, source._extensions if isinstance(source, Scene) else (), _file_of(source))
@@ -216,6 +223,22 @@ class Scene(Mapping):
             check(lib.gg_scene_to_yaml, scene, made)
         return owned_text(made)
 
+    def to_dict(self) -> dict:
+        """The keys that were given, nested as in the file, with the theories of the text: Scene.from_dict() reads it."""
+        found = {}
+        for key, value in self.given().items():
+            group, _, name = key.rpartition(".")
+            (found.setdefault(group, {}) if group else found)[name] = value
+        theories = self["theories"]
+        return {**found, "theories": theories} if theories else found
+
+    @classmethod
+    def from_dict(cls, content: dict) -> Scene:
+        """A scene from nested keys, as Scene(content)."""
+        if not isinstance(content, dict):
+            raise TypeError(f"from_dict: expected a dict, not {type(content).__name__}")
+        return cls(content)
+
     def _given_texts(self):
         """The given values as YAML by key, theories last: JSON is YAML, too."""
         found, theories = {key: self.text_of(key) for key in self._given_names()}, self["theories"]
@@ -233,7 +256,7 @@ class Scene(Mapping):
         with self.held() as scene:
             check(lib.gg_scene_check, scene)
 
-    def copy(self, **keys) -> Scene:
+    def copy(self, **keys: Unpack[KeyWords]) -> Scene:
         """A copy with some keys changed, and with the observables, theories and law of the scene."""
         with self.held() as scene:
             copy = Scene._copy_of(scene, self._extensions, self._file)

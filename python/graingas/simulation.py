@@ -2,13 +2,14 @@
 """Simulations, step by step."""
 from __future__ import annotations
 
+import html
 import warnings
 from contextlib import contextmanager, nullcontext
 from typing import Any, Callable, Iterator, Optional
 
 import numpy as np
 
-from . import _c, calls, yaml
+from . import _c, calls, tables, yaml
 from .arguments import real, whole
 from .errors import BadInput, check, encode, exception, lib, new_error, text
 from .grains import Grains, copy_grains, grains_from
@@ -362,6 +363,19 @@ class Simulation:
 
     def __exit__(self, *_):
         self.close()
+
+    def _repr_html_(self):
+        if self._handle.closed:
+            return "<p>closed simulation</p>"
+        try:
+            state, species = self.state, self.species
+        except BadInput as error:
+            return f"<p>{html.escape(str(error))}</p>"
+        rows = [["time", f"{state.time:g}"], ["collisions", state.collisions],
+                ["collisions per grain", f"{state.collisions_per_grain:.4g}"], ["grains", state.grains],
+                *([f"temperature{f' {i}' * (len(species) > 1)}", f"{one.temperature:.4g}"] for i, one in enumerate(species, 1)),
+                ["rotational temperature", tables.number(state.rotational_temperature)]]
+        return tables.as_html(self._scene.title, ["state", self._scene["engine"]], rows)
 
     def __repr__(self):
         if self._handle.closed:

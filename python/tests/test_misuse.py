@@ -89,6 +89,7 @@ TYPES = [
     (lambda: gg.Result.from_bytes(simulation().to_bytes()), gg.GraingasError),
     (lambda: gg.export(3, "x"), TypeError), (lambda: gg.export(__file__, "x"), gg.BadFile),
     (lambda: gg.theories(scene(), 3), TypeError),
+    (lambda: gg.cite(3), TypeError), (lambda: gg.cite("nobody"), gg.NotFound), (lambda: gg.cite("\0"), gg.BadInput),
     (lambda: gg.theory(scene(), 3), TypeError), (lambda: gg.theory(scene(), "\0"), gg.BadInput),
     (lambda: gg.define_observable(lambda s: 0), TypeError),
     (lambda: gg.define_observable("a")(3), TypeError), (lambda: gg.define_theory("a", "N1")(None), TypeError),

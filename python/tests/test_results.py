@@ -114,6 +114,36 @@ def test_pictures_are_drawn_and_written(comparison):
     assert [tick.get_text() for tick in ax.get_xticklabels()] == ["$T$", "$N_1$"]
 
 
+def test_picture_keeps_ratios_apart(comparison):
+    """A theory without N1 (ratio 0) is marked at the edge: it does not squash the others."""
+    pytest.importorskip("matplotlib").use("Agg")
+    assert comparison["N1"].theory["lun1991"] == 0
+    ax = comparison.plot(["temperature_ratio", "N1", "pressure"])
+    low, high = ax.get_ylim()
+    assert 0.02 <= high - 1 <= 0.6 and low + high == pytest.approx(2)
+    edge = [line for line in ax.lines if line.get_marker() == "v" and line.get_xdata()[0] == 1]
+    assert edge and all(low < line.get_ydata()[0] < low + 0.1 for line in edge)
+
+
+def test_citations(comparison):
+    """The engines and the theories that answered; names; and an error for others."""
+    text = gg.cite(comparison)
+    for key in "graingas", "AlderWainwright1959", "MontaneroSantos1996", "Lun1991", "CarnahanStarling1969":
+        assert f"{{{key},\n" in text
+    assert "Haff1983" not in text and text.count("@software") == 1
+    assert "MontaneroSantos1996" not in gg.cite(comparison.md) and "Lun1991" not in gg.cite(comparison.md)
+    assert gg.cite() == gg.cite("md").split("\n\n")[0] + "\n"
+    assert gg.cite(comparison.theories["lun1991"]) == gg.cite("lun1991")
+    with pytest.raises(gg.NotFound, match="did you mean 'lun1991'"):
+        gg.cite("lun199")
+    with pytest.raises(TypeError, match="Comparison"):
+        gg.cite(3)
+
+
+def test_documents_as_dicts(comparison):
+    assert comparison.to_dict() == json.loads(comparison.to_json()) and comparison.md.to_dict()["engine"] == "md"
+
+
 def test_symbols_are_latex(comparison):
     """Symbols of all quantities, also of species of mixtures, are LaTeX that matplotlib reads."""
     mathtext = pytest.importorskip("matplotlib.mathtext")

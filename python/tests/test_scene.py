@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes: keys in every notation, their help, errors with the library's messages, copies and pickles."""
 import copy
+import json
 import math
 import os
 import pickle
@@ -249,6 +250,18 @@ def test_theories_of_the_text_stay(way):
         assert t == s
     assert t.theories == {**MINE, "table": os.path.realpath("../points.csv")}
     assert gg.theory(t, "mine")["temperature"] == pytest.approx(0.09) and gg.theory(t, "table")["temperature"] == 3.5
+
+
+def test_dicts_and_back():
+    """Nested as in the file, plain values, theories too."""
+    s = gg.Scene(flow="usf", phi=0.1, e={11: 0.9, 12: 0.8, 22: 0.7}, species=[{"fraction": 0.5}, {"fraction": 0.5, "mass": 2}],
+                 run={"collisions": 100}, theories={"mine": {"N1": "phi"}})
+    found = s.to_dict()
+    assert found["collision"]["e"] and found["run"] == {"collisions": 100} and "md" not in found
+    again = gg.Scene.from_dict(json.loads(json.dumps(found)))
+    assert again.to_yaml(all=True) == s.to_yaml(all=True) and again.theories == s.theories
+    with pytest.raises(TypeError, match="dict"):
+        gg.Scene.from_dict("flow: usf")
 
 
 def test_formulas_that_use_each_other():

@@ -31,6 +31,15 @@ def test_state_is_that_of_the_grains(either):
     assert (g.position is None) == (state.box[0] == 0)
 
 
+def test_notebooks_show_the_state(either):
+    either.collide(100)
+    text = either._repr_html_()
+    assert f"<td>{either.state.collisions}</td>" in text and f"<td>{either.temperature:.4g}</td>" in text and "usf" not in text
+    assert f"<th>{either['engine']}</th>" in text and either.scene.title in text
+    either.close()
+    assert "closed" in either._repr_html_()
+
+
 def test_elastic_grains_keep_their_energy():
     sim = gg.Simulation(gg.Scene(flow="equilibrium", phi=0.2, particles=300, e=1))
     before = sim.temperature

@@ -12,6 +12,7 @@
 #include "common/engine.h"
 #include "files/result_document.h"
 #include "files/text_format.h"
+#include "theory/references.h"
 
 const char *gg_version(void)
 {
@@ -21,6 +22,13 @@ const char *gg_version(void)
 int gg_processors(void)
 {
   return gg_base_processors();
+}
+
+gg_status gg_cite(const char *words, size_t *n, char **text, gg_error *err)
+{
+  GG_NEED(words, text);
+  *text = gg_theory_references(words, n);
+  return *text ? GG_OK : gg_base_out_of_memory(err);
 }
 
 void gg_callback_fail(const char *reason)

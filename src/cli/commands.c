@@ -64,6 +64,9 @@ const gg_command gg_cli_commands[] = {
      "graingas info N1 prints its definition in five lines, --all in full. Without an argument: every scene key with "
      "its default and range.",
      GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_SCHEMA | GG_OPT_QUIET, gg_cli_info_main},
+    {"cite", "[RESULT.h5|WORD]", "References of the program, and of the methods of a result, as BibTeX",
+     "WORD is md, dsmc or the name of a theory. Without an argument: the program alone.", GG_OPT_QUIET,
+     gg_cli_cite_main},
     {"init", "[FLOW]", "A scene to begin with: FLOW.yaml, with every key of the flow",
      "Writes a scene of the flow (usf without an argument) that runs as it is. Its other keys are comments with their "
      "defaults and meanings. An existing file is not replaced.",

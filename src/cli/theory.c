@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas theory: values of all theories that apply to a scene. */
+/* graingas theory: values of all theories that apply to a scene. graingas cite: references, as BibTeX. */
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "cli/report.h"
 #include "cli/run_command.h"
@@ -29,4 +31,44 @@ int gg_cli_theory_main(const gg_options *o)
   gg_comparison_free(c);
   gg_scene_free(scene);
   return gg_cli_report_scene(o, status, &err);
+}
+
+/* Names of the engines and theories of a result; NULL: out of memory. */
+static char *methods_of(const gg_comparison *c)
+{
+  char *text = NULL;
+  size_t size = 0;
+  gg_theory_info t;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  for (int k = 0; k < 2; k++)
+    if (gg_comparison_result(c, k ? "dsmc" : "md")) fprintf(out, "%s ", k ? "dsmc" : "md");
+  for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++)
+    if (!t.reason) fprintf(out, "%s ", t.name);
+  return fclose(out) == 0 ? text : (free(text), NULL);
+}
+
+static int print_references(const char *words, bool is_word)
+{
+  gg_error err;
+  size_t n;
+  char *text;
+  if (gg_cite(words, &n, &text, &err) != GG_OK) return gg_cli_report(&err);
+  if (n || !is_word) return gg_cli_print_text(text), GG_OK;
+  free(text);
+  return gg_cli_fail(GG_BAD_INPUT, "'%s': no reference; a result file, md, dsmc or a theory is expected", words);
+}
+
+int gg_cli_cite_main(const gg_options *o)
+{
+  gg_error err;
+  gg_comparison *c;
+  const char *dot = o->input ? strrchr(o->input, '.') : NULL;
+  if (!dot) return print_references(o->input ? o->input : "", o->input != NULL);
+  if (gg_comparison_read(o->input, &c, &err) != GG_OK) return gg_cli_report(&err);
+  char *words = methods_of(c);
+  gg_comparison_free(c);
+  const int code = words ? print_references(words, false) : gg_cli_fail(GG_FAILED, "out of memory");
+  free(words);
+  return code;
 }

@@ -56,6 +56,58 @@ def test_slurm_array():
         check(re.search(rf"^(?:.*,)?{e},", rows, re.MULTILINE), e, rows[:300])
 
 
+def test_exercises():
+    """The closed forms of the solutions are theories of graingas, and their numbers stand in the page."""
+    text = page("exercises")
+    chi = lambda phi: (1 - phi / 2) / (1 - phi) ** 3
+    e, beta, K = 0.95, 0, 0.4
+    h = (1 + e) / 2
+    ratio, zeta, nu = 5 * (1 - e) / (3 - e) / 3, 4 / 3 * math.sqrt(math.pi) * (1 - e * e), 16 / 5 * math.sqrt(math.pi) * h * (2 - h)
+    n = 6 * 0.3 / math.pi
+    rows = (("enskog", "{flow: equilibrium, phi: 0.3}", {"collision_rate": (4 * n * chi(0.3) * math.sqrt(math.pi / 2), "7.1182"),
+                                                         "compressibility_factor": (1 + 1.2 * chi(0.3), "3.9738")}),
+            ("haff1983", "{flow: hcs, phi: 0.1, collision: {e: 0.8}}", {"cooling_rate": (5 / 12 * 0.36 * chi(0.1), "0.1955")}),
+            ("grad", "{flow: usf, phi: 0, collision: {e: 0.95}}", {"N1": (3 * ratio, "0.1220"), "temperature": (2 / 3 * (1 - ratio) / zeta / nu, "0.4897")}),
+            ("lun1991", "{flow: usf, phi: 0.01, collision: {e: 0.9, beta: 0}}",
+             {"temperature_ratio": (K * (1 + beta) / (1 + 2 * K - beta), "0.2222")}))
+    for theory, scene, values in rows:
+        done = subprocess.run([GRAINGAS, "theory", "-", "--json", "--theory", theory], input=scene, capture_output=True, text=True)
+        found = json.loads(done.stdout)["theory"][theory]
+        for name, (value, number) in values.items():
+            check(abs(found[name]["mean"] / value - 1) < 1e-12, theory, name, found[name], value)
+            check(abs(value - float(number)) < 6e-5 and number in text, number)
+    for command in re.findall(r"`(\{flow: .*?\}+)`", text):
+        check(subprocess.run([GRAINGAS, "info", "-"], input=command, capture_output=True, text=True).returncode == 0, command)
+
+
+def peers(*more):
+    """validation/peers with a peer that burns a twentieth of a second and prints its collisions."""
+    with open("s.yaml", "w", encoding="utf-8") as file:
+        file.write("flow: hcs\nphi: 0.1\nparticles: 500\nrun: {collisions: 200, warmup: 20}\n")
+    fake = f"{sys.executable} -c 'import time\nwhile time.process_time() < 0.05: pass\nprint(\"collisions: 1e3\\ncollisions: 4e5\")'"
+    return subprocess.run([sys.executable, os.path.join(SOURCE, "validation", "peers", "peers.py"), "--graingas", GRAINGAS, "--scene", "s.yaml",
+                           "--peer", "other", "--command", fake, "--repeat", "2", *more], capture_output=True, text=True)
+
+
+def test_peers():
+    """Rates from the last number that the peer prints or from --events, medians and their ratio; errors with a reason."""
+    for more, events in ((("--pattern", r"collisions: ([0-9.e+]+)"), 4e5), (("--events", "8e5"), 8e5)):
+        done = peers(*more)
+        check(done.returncode == 0, done.stderr)
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines() if line.startswith("| ")][2:]
+        check([row[0] for row in rows] == ["graingas md", "other"] and rows[1][3] == "1", rows)
+        check(events / 2 < float(rows[1][1]) <= events / 0.05 and abs(float(rows[0][3]) / (float(rows[0][1]) / float(rows[1][1])) - 1) < 0.01, rows)
+        for row in rows:
+            low, high = map(float, row[2].split(" to "))
+            check(0 < low <= float(row[1]) <= high, row)
+    done = peers("--pattern", "nothing ([0-9]+)")
+    check(done.returncode == 1 and "nothing in the output" in done.stderr, done.stderr)
+    done = peers("--pattern", "collisions")
+    check(done.returncode == 2 and "one group" in done.stderr, done.stderr)
+    done = peers("--events", "1", "--command", "exit 3")
+    check(done.returncode == 1 and "exit code 3" in done.stderr, done.stderr)
+
+
 def test_mpi_gives_the_same_digits():
     """As without MPI, to the last digit."""
     if not shutil.which("mpirun"):

@@ -35,17 +35,41 @@ def test_a_wrong_number_is_found_and_mended():
     needed()
     os.makedirs("scripts")
     os.makedirs("examples")
+    os.makedirs("docs/images")
+    open("docs/images/p.svg", "w").close()
     script = shutil.copy(SCRIPT, "scripts")
-    page = "# A\n\n<!-- quick output of: echo 1; echo 2 -->\n```\n1\n3\n```\n\n| a |\n\n<!-- run -->\n```sh\necho 7\n```\n\n" \
-           "<!-- output of: the block above -->\n```\n```\nEnd.\n"
+    page = "# A\n\n<!-- quick output of: echo 1; echo 2 -->\n```\n1\n3\n```\n\n| a |\n\n<!-- run -->\n```sh\necho '<svg/>' > p.svg; echo 7\n```\n\n" \
+           "<!-- output of: the block above -->\n```\n```\n![p](docs/images/p.svg)\nEnd.\n"
     with open("README.md", "w") as f:
         f.write(page)
     done = refresh("--check", "--quick", script=os.path.abspath(script))
     check(done.returncode == 1 and "-3\n+2\n" in done.stdout, done.stdout, done.stderr)
     check(open("README.md").read() == page, "--check writes")
     check(refresh(script=os.path.abspath(script)).returncode == 0)
-    check(open("README.md").read() == page.replace("3\n", "2\n").replace("```\n```\nEnd", "```\n7\n```\nEnd"))
+    check(open("README.md").read() == page.replace("3\n", "2\n").replace("```\n```\n!", "```\n7\n```\n!"))
     check(refresh("--check", script=os.path.abspath(script)).returncode == 0)
+
+
+def test_a_picture_of_another_run_is_found():
+    """The picture of a page carries a stamp of the page's numbers. That of the README has one."""
+    needed()
+    os.makedirs("scripts")
+    os.makedirs("examples")
+    os.makedirs("docs/images")
+    open("docs/images/p.svg", "w").close()
+    script = os.path.abspath(shutil.copy(SCRIPT, "scripts"))
+    page = "<!-- run -->\n```sh\necho '<svg/>' > p.svg; echo 7\n```\n\n<!-- output of: the block above -->\n```\n1\n```\n![p](docs/images/p.svg)\n"
+    with open("README.md", "w") as f:
+        f.write(page)
+    check(refresh(script=script).returncode == 0 and refresh("--check", "--quick", script=script).returncode == 0)
+    check("<svg/>\n<!-- numbers: " in open("docs/images/p.svg").read())
+    with open("README.md", "w") as f:
+        f.write(page.replace("\n1\n", "\n8\n"))
+    done = refresh("--check", "--quick", script=script)
+    check(done.returncode == 1 and "docs/images/p.svg is of another run" in done.stdout, done.stdout)
+    with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as f:
+        pictures = [name for name in ("docs/images/usf.svg",) if f"({name})" in f.read()]
+    check(pictures and all("<!-- numbers: " in open(os.path.join(SOURCE, name)).read() for name in pictures), pictures)
 
 
 if __name__ == "__main__":

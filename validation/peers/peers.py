@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Speed of graingas beside another program on the same gas, in turn, with spread.
+
+    validation/peers/peers.py --scene SCENE.yaml --peer NAME --command "dynarun -c 1000000 c.xml" --events 1000000
+    validation/peers/peers.py --scene SCENE.yaml --peer NAME --command "./run.sh" --pattern "collisions: ([0-9.e+]+)"
+
+The other program is the user's: a command that simulates the gas of the scene, on one core. Its collisions are given
+(--events), or a group of --pattern finds them in what it prints. Both programs run in turn, --repeat times. The time is
+that of the processor, start included, so runs should be long: ten seconds and more. The table is Markdown, as in
+docs/explanation/performance.md: collisions a second (median, lowest, highest) and the ratio of the medians."""
+import argparse
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+
+
+def timed(command, **more):
+    """Output of a command, and its processor time with that of its children."""
+    with tempfile.TemporaryFile("w+") as out:
+        process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, **more)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        out.seek(0)
+        text = out.read()
+    if process.returncode:
+        sys.exit(f"peers: exit code {process.returncode} of {command}:\n{text[-2000:]}")
+    return text, usage.ru_utime + usage.ru_stime
+
+
+def own(options):
+    """Collisions a second of graingas: of the whole run."""
+    with tempfile.TemporaryDirectory() as folder:
+        text, seconds = timed([options.graingas, "run", options.scene, "--engine", options.engine, "--threads", "1", "--quiet",
+                               "--json", "--output", os.path.join(folder, "run.h5")])
+    return json.loads(text[text.index("{"):text.rindex("}") + 1])["total"]["collisions"] / seconds
+
+
+def peers(options):
+    text, seconds = timed(["bash", "-c", options.command])
+    if options.events:
+        return options.events / seconds
+    found = re.findall(options.pattern, text)
+    if not found:
+        sys.exit(f"peers: nothing in the output is of the form {options.pattern!r}:\n{text[-2000:]}")
+    return float(found[-1]) / seconds
+
+
+def row(name, rates, reference):
+    return f"| {name} | {statistics.median(rates):.4g} | {min(rates):.4g} to {max(rates):.4g} | {statistics.median(rates) / reference:.3g} |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scene", required=True)
+    parser.add_argument("--engine", default="md", choices=("md", "dsmc"))
+    parser.add_argument("--peer", required=True, metavar="NAME")
+    parser.add_argument("--command", required=True)
+    group = parser.add_mutually_exclusive_group(required=True)
+    group.add_argument("--events", type=float, metavar="N")
+    group.add_argument("--pattern", metavar="REGEX")
+    parser.add_argument("--repeat", type=int, default=5, metavar="N")
+    parser.add_argument("--graingas", default=os.path.join(ROOT, "build", "src", "cli", "graingas"))
+    options = parser.parse_args()
+    if options.repeat < 2:
+        parser.error("--repeat: at least 2, for a spread")
+    if options.pattern and re.compile(options.pattern).groups != 1:
+        parser.error("--pattern: one group is needed, around the number of collisions")
+    rates = {f"graingas {options.engine}": [], options.peer: []}
+    for turn in range(options.repeat):
+        for name in list(rates)[::1 if turn % 2 else -1]:  # neither program always runs first
+            rates[name].append((peers if name == options.peer else own)(options))
+    reference = statistics.median(rates[options.peer])
+    print(f"Scene: {os.path.basename(options.scene)}; {options.repeat} runs each, in turn, one core.\n")
+    print("| program | collisions a second | lowest to highest | times |\n| --- | --- | --- | --- |")
+    for name, found in rates.items():
+        print(row(name, found, reference))
+
+
+if __name__ == "__main__":
+    main()
