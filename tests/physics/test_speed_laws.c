@@ -245,7 +245,7 @@ static void cooling_follows_haff(void **state)
   haff_in(GG_MD, 300);
 }
 
-/* A formula that is constant but for its form has the same course as the constant, until rounding has grown. */
+/* A formula that is constant but for its form gives the same temperature as the constant, until rounding has grown. */
 static double temperature_after(gg_engine_kind kind, int64_t n, const char *key, const char *value)
 {
   gg_scene s = scene_of(kind, GG_USF, 0.1, n);
@@ -260,7 +260,7 @@ static double temperature_after(gg_engine_kind kind, int64_t n, const char *key,
   return T;
 }
 
-static void constant_formulas_have_the_same_course(void **state)
+static void constant_formulas_give_the_same_temperature(void **state)
 {
   (void)state;
   static const char *const cases[][3] = {{"collision.e", "0.9", "0.9 + 0*v"},
@@ -317,9 +317,10 @@ static void a_restored_run_has_the_same_bits(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_contact_has_the_coefficients_of_its_speed),
-      cmocka_unit_test(a_step_loses_what_a_quadrature_says), cmocka_unit_test(cooling_follows_haff),
-      cmocka_unit_test(constant_formulas_have_the_same_course), cmocka_unit_test(a_restored_run_has_the_same_bits)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_contact_has_the_coefficients_of_its_speed),
+                                     cmocka_unit_test(a_step_loses_what_a_quadrature_says),
+                                     cmocka_unit_test(cooling_follows_haff),
+                                     cmocka_unit_test(constant_formulas_give_the_same_temperature),
+                                     cmocka_unit_test(a_restored_run_has_the_same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
