@@ -11,23 +11,23 @@
 
 typedef struct function {
   const char *name;
-  double (*of)(double);
+  double (*of)(double), (*portable)(double);
   double (*of_two)(double, double); /* NULL: of one */
 } function;
 
-static const function functions[] = {{"ln", gg_common_portable_ln, NULL},
-                                     {"log10", gg_common_portable_log10, NULL},
-                                     {"exp", gg_common_portable_exp, NULL},
-                                     {"sqrt", sqrt, NULL},
-                                     {"abs", fabs, NULL},
-                                     {"sin", gg_common_portable_sin, NULL},
-                                     {"cos", gg_common_portable_cos, NULL},
-                                     {"atan", gg_common_portable_atan, NULL},
-                                     {"tanh", gg_common_portable_tanh, NULL},
-                                     {"erf", gg_common_portable_erf, NULL},
-                                     {"min", NULL, fmin},
-                                     {"max", NULL, fmax},
-                                     {NULL, NULL, NULL}};
+static const function functions[] = {{"ln", log, gg_common_portable_ln, NULL},
+                                     {"log10", log10, gg_common_portable_log10, NULL},
+                                     {"exp", exp, gg_common_portable_exp, NULL},
+                                     {"sqrt", sqrt, sqrt, NULL},
+                                     {"abs", fabs, fabs, NULL},
+                                     {"sin", sin, gg_common_portable_sin, NULL},
+                                     {"cos", cos, gg_common_portable_cos, NULL},
+                                     {"atan", atan, gg_common_portable_atan, NULL},
+                                     {"tanh", tanh, gg_common_portable_tanh, NULL},
+                                     {"erf", erf, gg_common_portable_erf, NULL},
+                                     {"min", NULL, NULL, fmin},
+                                     {"max", NULL, NULL, fmax},
+                                     {NULL, NULL, NULL, NULL}};
 
 typedef struct parser {
   const char *text, *at;
@@ -210,7 +210,7 @@ gg_status gg_common_expression_parse(gg_expression *e, const char *text, const c
   return *p.at ? refuse(&p, "not expected here") : GG_OK;
 }
 
-static double combine(char code, double a, double b)
+static double combine(char code, bool portable, double a, double b)
 {
   switch (code) {
   case '+': return a + b;
@@ -222,14 +222,14 @@ static double combine(char code, double a, double b)
   case 'l': return a <= b;
   case 'g': return a >= b;
   case '=': return a == b;
-  default: return gg_common_portable_pow(a, b);
+  default: return portable ? gg_common_portable_pow(a, b) : pow(a, b);
   }
 }
 
 /* Put the value of a function in the place of its arguments; the new height of the stack. */
-static int call(const function *f, double *stack, int top)
+static int call(const function *f, bool portable, double *stack, int top)
 {
-  if (!f->of_two) return stack[top - 1] = f->of(stack[top - 1]), top;
+  if (!f->of_two) return stack[top - 1] = (portable ? f->portable : f->of)(stack[top - 1]), top;
   stack[top - 2] = f->of_two(stack[top - 2], stack[top - 1]);
   return top - 1;
 }
@@ -239,7 +239,7 @@ static bool compares(char code)
   return strchr("<>lg=", code) != NULL;
 }
 
-double gg_common_expression_branch(const gg_expression *e, const double *at, uint64_t *branch)
+static double evaluate(const gg_expression *e, bool portable, const double *at, uint64_t *branch)
 {
   double stack[GG_EXPRESSION_STEPS];
   int top = 0;
@@ -250,7 +250,7 @@ double gg_common_expression_branch(const gg_expression *e, const double *at, uin
     case 'n': stack[top++] = e->step[i].number; break;
     case 'p': stack[top++] = at[(int)e->step[i].number]; break;
     case '_': *last = -*last; break;
-    case 'f': top = call(&functions[(int)e->step[i].number], stack, top); break;
+    case 'f': top = call(&functions[(int)e->step[i].number], portable, stack, top); break;
     case '?':
       top -= 2;
       *branch = 2 * *branch + (stack[top] != 0);
@@ -258,7 +258,7 @@ double gg_common_expression_branch(const gg_expression *e, const double *at, uin
       break;
     default:
       top--;
-      stack[top - 1] = combine(e->step[i].code, stack[top - 1], stack[top]);
+      stack[top - 1] = combine(e->step[i].code, portable, stack[top - 1], stack[top]);
       if (compares(e->step[i].code)) *branch = 2 * *branch + (stack[top - 1] != 0);
     }
   }
@@ -268,5 +268,10 @@ double gg_common_expression_branch(const gg_expression *e, const double *at, uin
 double gg_common_expression_value(const gg_expression *e, const double *at)
 {
   uint64_t branch;
-  return gg_common_expression_branch(e, at, &branch);
+  return evaluate(e, false, at, &branch);
+}
+
+double gg_common_expression_branch(const gg_expression *e, const double *at, uint64_t *branch)
+{
+  return evaluate(e, true, at, branch);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small formulas, "y/(1+y)" or "0.9 if v < 2 else 0.6": + - * / ^, comparisons, which are 1 or 0, parentheses, numbers,
  * pi, inf, functions of one argument or two, and variables that the caller names. Both branches of a condition are
- * computed; one is taken, and NaN as a condition takes NaN. Values have the same bits everywhere
- * (common/portable_functions.h). */
+ * computed; one is taken, and NaN as a condition takes NaN. Functions are those of the C library, but of
+ * gg_common_expression_branch. */
 #ifndef GG_COMMON_EXPRESSION_H
 #define GG_COMMON_EXPRESSION_H
 
@@ -28,8 +28,8 @@ gg_status gg_common_expression_parse(gg_expression *e, const char *text, const c
 bool gg_common_expression_knows(const char *word);
 /* With the values of all variables, in their order. */
 double gg_common_expression_value(const gg_expression *e, const double *at);
-/* The same, and which comparisons and conditions are true, a bit each: where two values have one *branch, no step of a
- * comparison is between them. */
+/* The same with the same bits everywhere (common/portable_functions.h), and which comparisons and conditions are true,
+ * a bit each: where two values have one *branch, no step of a comparison is between them. */
 double gg_common_expression_branch(const gg_expression *e, const double *at, uint64_t *branch);
 
 #endif

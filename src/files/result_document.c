@@ -187,7 +187,7 @@ static json_t *engine_state_json(const gg_result *r)
     json_object_set_new(state, "time_step_bias", json_number(s->time_step_bias));
     json_object_set_new(state, "particles_bias", json_number(s->particles_bias));
   }
-  if (r->model.law.name && r->model.law.kind == GG_LAW_CONSTANT)
+  if (r->model.law.e || gg_speed_laws_any(&r->model.by_speed, gg_pairs_of(r->model.n_species)))
     json_object_set_new(state, "law_clamped", json_integer((json_int_t)s->clamped));
   return state;
 }

@@ -111,9 +111,8 @@ static gg_status check_injection(const gg_scene *s, gg_error *err)
         "thermostat: injection needs collision.normal_kick, collision.tangential_kick, a torque on rough grains, or a "
         "formula of collision.e above 1");
   if (injected && (flow->conserves || flow->linear_response || gg_flow_cools(s->flow)))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: flow: %s takes no energy from kicks, torques and contacts; use flow: %s", key, flow->word,
-                        gg_flow_of(GG_HSS)->word);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: flow: %s takes no energy from %s; use flow: %s", key, flow->word,
+                        torque || gg_scene_has_kicks(s) ? "kicks and torques" : "contacts", gg_flow_of(GG_HSS)->word);
   if (injected && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "%s: does not go with a thermostat that balances the losses; give %s a value, or "

@@ -522,7 +522,7 @@ static gg_status take_law(const input *in, coefficient *c)
   c->x = fmin(gg_common_speed_law_value(&law, 1, NULL), in->f->max);
   if (!gg_common_speed_law_is_constant(&law)) return GG_OK;
   uint64_t branch;
-  const double exact = law.formula.n ? gg_common_expression_value(&law.formula, &c->x) : law.value[0];
+  const double exact = law.formula.n ? gg_common_expression_branch(&law.formula, &c->x, &branch) : law.value[0];
   gg_common_speed_law_value(&law, 1, &branch);
   if (branch & 1 || exact > in->f->max) return reject_value(in);
   c->x = exact, *c->law = '\0';

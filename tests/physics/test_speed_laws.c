@@ -245,8 +245,8 @@ static void cooling_follows_haff(void **state)
   haff_in(GG_MD, 300);
 }
 
-/* A formula that is constant but for its form has the same course as the constant, until rounding has grown. */
-static double course(gg_engine_kind kind, int64_t n, const char *key, const char *value)
+/* A formula that is constant but for its form gives the same temperature as the constant, until rounding has grown. */
+static double temperature_after(gg_engine_kind kind, int64_t n, const char *key, const char *value)
 {
   gg_scene s = scene_of(kind, GG_USF, 0.1, n);
   set(&s, "collision.beta", "0.2"), set(&s, "collision.mu", "0.3");
@@ -260,7 +260,7 @@ static double course(gg_engine_kind kind, int64_t n, const char *key, const char
   return T;
 }
 
-static void constant_formulas_have_the_same_course(void **state)
+static void constant_formulas_give_the_same_temperature(void **state)
 {
   (void)state;
   static const char *const cases[][3] = {{"collision.e", "0.9", "0.9 + 0*v"},
@@ -269,7 +269,8 @@ static void constant_formulas_have_the_same_course(void **state)
   for (gg_engine_kind kind = GG_MD; kind <= GG_DSMC; kind++)
     for (size_t c = 0; c < 3; c++) {
       const int64_t n = kind == GG_DSMC && c == 0 ? 5000 : 500; /* beta and mu go one by one, as few grains do */
-      const double T = course(kind, n, cases[c][0], cases[c][1]), law = course(kind, n, cases[c][0], cases[c][2]);
+      const double T = temperature_after(kind, n, cases[c][0], cases[c][1]),
+                   law = temperature_after(kind, n, cases[c][0], cases[c][2]);
       print_message("# %s, %s: T off by %.1e\n", kind == GG_MD ? "md" : "dsmc", cases[c][2], fabs(law / T - 1));
       assert_true(fabs(law / T - 1) < 1e-9);
     }
@@ -316,9 +317,10 @@ static void a_restored_run_has_the_same_bits(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_contact_has_the_coefficients_of_its_speed),
-      cmocka_unit_test(a_step_loses_what_a_quadrature_says), cmocka_unit_test(cooling_follows_haff),
-      cmocka_unit_test(constant_formulas_have_the_same_course), cmocka_unit_test(a_restored_run_has_the_same_bits)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_contact_has_the_coefficients_of_its_speed),
+                                     cmocka_unit_test(a_step_loses_what_a_quadrature_says),
+                                     cmocka_unit_test(cooling_follows_haff),
+                                     cmocka_unit_test(constant_formulas_give_the_same_temperature),
+                                     cmocka_unit_test(a_restored_run_has_the_same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

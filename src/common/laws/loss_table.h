@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A law as a table, linear between nodes that are 1/256 of an octave of speed apart: within 1e-7 of a built-in law, and
- * as fast for one law as for another. Speeds are in the law's units; beyond the table they count as its ends. Of
- * built-in laws the table has 1 - e: below 10^-30 nothing is lost, above 3 10^8 as much as there. Of laws by formulas
- * and tables (speed_laws.h) it has 1 - e, 1 + beta or mu without their steps, which are added where they are. */
+ * as fast for one law as for another. Speeds are in the law's units; beyond the table they count as its ends.
+ * Tables of built-in laws have 1 - e: below 10^-30 nothing is lost, above 3 10^8 as much as there. Those of formulas
+ * and tables (speed_laws.h) have 1 - e, 1 + beta or mu without their steps, which are added where they are. */
 #ifndef GG_LOSS_TABLE_H
 #define GG_LOSS_TABLE_H
 
