@@ -122,7 +122,7 @@ static void add_numbers(const gg_oscillation *o, const double *amplitude, int cu
   double scratch[2 * CHANNELS];
   for (size_t i = 0; row && i < n; i++) row[i] = amplitude + CHANNELS * i;
   for (size_t k = 0; row && k < sizeof numbers / sizeof *numbers; k++) {
-    const char *of = numbers[k].unit == 's' ? unit : numbers[k].unit == 'r' ? "rad" : "";
+    const char *of = numbers[k].unit == 's' ? unit : numbers[k].unit == 'r' ? "rad" : "1";
     char name[40];
     if (numbers[k].curve != curve || c->n_numbers + 2 > GG_CURVE_NUMBERS) continue;
     const gg_mean m =
@@ -132,7 +132,7 @@ static void add_numbers(const gg_oscillation *o, const double *amplitude, int cu
     snprintf(name, sizeof name, "%.24s_of_closure", numbers[k].name);
     if (o->theory) gg_measure_curve_put_setting(c, name, numbers[k].of(amplitude + CHANNELS * n, o->model), of);
   }
-  if (curve == 0) gg_measure_curve_put_setting(c, "strain_amplitude", strain_amplitude(amplitude, NULL), "");
+  if (curve == 0) gg_measure_curve_put_setting(c, "strain_amplitude", strain_amplitude(amplitude, NULL), "1");
   free(row);
 }
 
@@ -165,9 +165,9 @@ static void add_curve(const gg_oscillation *o, const double *amplitude, int curv
   const gg_model *m = o->model;
   const char *unit = gg_common_quantity_unit(curve ? GG_Q_TEMPERATURE : GG_Q_P_XY, m);
   gg_curve *c = gg_measure_curve_add(list, o->steps + 1, curve ? "temperature_in_period" : "stress_over_strain",
-                                     curve ? "T in a period" : "-P_xy over the strain", "measured");
-  gg_measure_curve_axes(c, curve ? "t" : "strain", curve ? gg_measure_curve_unit(m, "time") : "", curve ? "T" : "-P_xy",
-                        unit);
+                                     curve ? "T in a period" : "-P_{xy} over the strain", "measured");
+  gg_measure_curve_axes(c, curve ? "t" : "strain", curve ? gg_measure_curve_unit(m, "time") : "1",
+                        curve ? "T" : "-P_{xy}", unit);
   c->samples = (uint64_t)(o->n * o->periods);
   for (size_t j = 0; j < c->n; j++) c->x[j] = (double)j;
   if (o->theory) gg_measure_curve_beside(c, o->theory, gg_measure_curve_level, &(double){0});

@@ -78,7 +78,7 @@ gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const g
   else
     GG_TRY(gg_scene_model_make(scene, scene->engine, model, err));
   model->stop = stop;
-  /* Of shear that rests, is reversed or changes: near the steady state of the rate that is the unit. */
+  /* Start near the steady state of the rate that is the unit, if the shear rests, is reversed or changes. */
   const double rate = model->shear_rate;
   if (gg_model_is_sheared(model) && (rate <= 0 || gg_scene_shear_steps(scene) > 0)) model->shear_rate = 1;
   if (scene->start.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(model, err));

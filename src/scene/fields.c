@@ -511,7 +511,9 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
     for (int i = 0; (word = gg_scene_field_word(f, i)).name; i++)
       gg_base_text_append(text, size, "%s%s", i ? ", " : "", word.name);
     return;
-  case GG_FIELD_RATE: number_allowed(f, "a formula of t, or a number", text, size); return;
+  case GG_FIELD_RATE:
+    snprintf(text, size, "a number from %g to %g, such a number below 0, 0, or a formula of t", 1 / f->max, f->max);
+    return;
   case GG_FIELD_FILE:
     snprintf(text, size, "the name of a file that ends in ");
     for (const gg_word *w = f->words; w->name; w++)

@@ -250,8 +250,9 @@ static gg_status read_rate(const input *in, double *value)
   gg_error why;
   double x;
   if (!text || has_decimal_comma(text) || parse_number(text, &x) || !text[strspn(text, "0123456789+-.eE ")]) {
-    GG_TRY(read_number(in, value));
-    return *formula = '\0', GG_OK;
+    GG_TRY(read_number(in, &x));
+    if (x != 0 && fabs(x) < 1 / in->f->max) return reject_value(in);
+    return *value = x, *formula = '\0', GG_OK;
   }
   if (gg_common_expression_parse(&e, text, (const char *const[]){"t", NULL}, &why) != GG_OK)
     return gg_scene_reject(in->r, in->node, in->key, "neither a number nor a formula of t: %s", why.message);

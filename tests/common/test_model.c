@@ -39,7 +39,7 @@ static void units_drop_out(void **state)
   gg_scene s = gg_scene_defaults();
   s.phi = 0.3;
   gg_model a = make(&s);
-  s.species[0].diameter = 0.002, s.species[0].mass = 1e-5, s.shear_rate = 40;
+  s.species[0].diameter = 0.002, s.species[0].mass = 1e-5, s.shear.rate = 40;
   gg_model b = make(&s);
   near(a.box[0], b.box[0], 1e-14);
   near(a.contact[0][0].jn, b.contact[0][0].jn, 1e-14);
@@ -391,7 +391,7 @@ static void scales_beyond_doubles_are_rejected(void **state)
   s.phi = 1e-20;
   assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   assert_true(isfinite(m.temperature0) && isfinite(m.volume) && m.density > 0);
-  s.phi = 0.1, s.shear_rate = 1e-3, s.start.temperature = 1e-13;
+  s.phi = 0.1, s.shear.rate = 1e-3, s.start.temperature = 1e-13;
   refused(&s, "here 1e-12 to 1e+24");
   s.start.temperature = 1e25;
   refused(&s, "here 1e-12 to 1e+24");

@@ -131,7 +131,7 @@ static void reference_speed(void **state)
   gg_scene s = viscoelastic(GG_USF);
   gg_model m = model_of(&s);
   assert_true(fabs(gg_common_law_at(&m.law, 1, 0, 0, NULL) - 0.9) < 1e-12);
-  s.shear_rate = 4, s.species[0].diameter = 0.5, s.collision.speed = 6; /* 3 d gamma */
+  s.shear.rate = 4, s.species[0].diameter = 0.5, s.collision.speed = 6; /* 3 d gamma */
   s.species[0].fraction = s.species[1].fraction = 0.5;
   s.n_species = 2, s.collision.e[GG_12] = 0.8, s.collision.e[GG_22] = 1;
   m = model_of(&s);

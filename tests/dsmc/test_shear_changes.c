@@ -56,7 +56,7 @@ static void free_flight_is_exact(void **state)
     fastest = fmax(fastest, fabs(c[0]) + fabs(c[1]));
     most = fmax(most, fabs(now[0] - (c[0] - strain * c[1])) + fabs(now[1] - c[1]) + fabs(now[2] - c[2]));
   }
-  /* What rounding leaves of the mean velocity is removed at every change. */
+  /* Every change removes the rounding of the mean velocity. */
   if (!(fabs(strain) > 1 && most < 1e-12 * fastest)) fail_msg("strain %g: off by %g of %g", strain, most, fastest);
   gg_dsmc_ops.destroy(g);
 }

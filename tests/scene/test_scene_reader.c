@@ -42,7 +42,7 @@ static void reads_every_key(void **state)
   assert_int_equal(s.engine, GG_DSMC);
   assert_int_equal(s.thermostat, GG_WHITE_NOISE);
   assert_int_equal(s.contact_value, GG_KOLAFA);
-  assert_true(s.phi == 0.25 && s.particles == 100000 && s.shear_rate == 2.5 && s.start.temperature == 0.125);
+  assert_true(s.phi == 0.25 && s.particles == 100000 && s.shear.rate == 2.5 && s.start.temperature == 0.125);
   assert_true(s.aspect[0] == 1 && s.aspect[1] == 2 && s.aspect[2] == 0.5);
   assert_true(s.collision.e[GG_11] == 0.9 && s.collision.e[GG_12] == 0.8 && s.collision.e[GG_22] == 0.7);
   assert_true(s.collision.beta[GG_11] == 0.5 && s.collision.beta[GG_22] == 0.5);

@@ -69,7 +69,7 @@ static gg_scene scaled(const gg_scene *scene, scaling by)
   gg_scene s = *scene;
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (f->type == GG_FIELD_NUMBER || f->type == GG_FIELD_VECTOR || f->type == GG_FIELD_ENDS ||
-        f->type == GG_FIELD_PAIRS)
+        f->type == GG_FIELD_PAIRS || f->type == GG_FIELD_RATE)
       scale_field(f, &s, by);
   for (int i = 0; i < s.n_species; i++)
     for (const gg_field *f = gg_scene_species_fields; f->key; f++) scale_field(f, &s.species[i], by);
