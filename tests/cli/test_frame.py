@@ -59,8 +59,8 @@ def test_share_of_the_mean_is_put_back():
 
 
 def test_slabs():
-    """Means of large slabs take less of the fluctuations away than those of small cells. What stays of the flow within a
-    slab is (h gamma)^2/12 in the mean square of C_x."""
+    """Means of large slabs take less of the fluctuations away than those of small cells. The flow within a slab stays
+    in: (h gamma)^2/12 in the mean square of C_x."""
     T = {frame: document(f"frame={frame}", "frame_cells=3")["results"]["temperature"]["mean"] for frame in
          ("imposed", "cells", "slabs", "slabs_laboratory")}
     check(T["cells"] < 0.995 * T["slabs"] and abs(T["slabs"] / T["imposed"] - 1) < 0.005, T)

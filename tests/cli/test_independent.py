@@ -652,7 +652,7 @@ def hold_correlations(store, flow, kind, curves, replicas, C, W):
 
 def hold_local(store, flow, kind, curves, replicas, C, W, frame):
     """C_x and Omega_z in the cells of the frame, all and by solid fraction, about the mean of their species over its sigma.
-    Where the frame has slabs: in cells of about eight grains, at least three along an edge."""
+    If the frame has slabs: in cells of about eight grains, at least three along an edge."""
     rows = np.where(window_of(store, replicas) & (store.index % 4 == 0))[0]  # every 4th sample
     box = np.array(box_of(store, flow))
     n = np.maximum(3, np.round(box / (8 * box.prod() / N) ** (1 / 3))).astype(int) if frame.startswith("slabs") else np.full(3, 2)

@@ -154,6 +154,7 @@ def _as_one_line(text):
         run = ElementTree.SubElement(text, SPAN, {"style": span.get("style", "")})
         run.text = characters.strip()
         left += size * _advance(" ", "") * (len(characters) - len(characters.lstrip()))
+        right -= size * _advance(" ", "") * (len(characters) - len(characters.rstrip()))
         if left - end > 0.15 * size:  # some programs leave out blanks at the start of a piece
             run.set("dx", _number(left - end, 2))
         if abs(y - height) > 0.01:
