@@ -18,6 +18,13 @@ static gg_expression formula_of(const gg_scene *s)
   return e;
 }
 
+/* The same bits on every machine. */
+static double rate_at(const gg_expression *e, double t)
+{
+  uint64_t unused;
+  return gg_common_expression_branch(e, &t, &unused);
+}
+
 static double length_of(const gg_scene *s)
 {
   return s->run.duration / (double)gg_scene_shear_steps(s);
@@ -27,11 +34,9 @@ static double length_of(const gg_scene *s)
 static double mean_of(const gg_expression *e, double from, double length, double *largest)
 {
   double sum = 0, most = 0;
-  for (int end = 0; end < 2; end++)
-    most = fmax(most, fabs(gg_common_expression_value(e, &(double){from + end * length})));
+  for (int end = 0; end < 2; end++) most = fmax(most, fabs(rate_at(e, from + end * length)));
   for (int k = 0; k < 2 * HALF; k++) {
-    const double at = (1 + (k % 2 ? 1 : -1) * node[k / 2]) / 2,
-                 rate = gg_common_expression_value(e, &(double){from + at * length});
+    const double at = (1 + (k % 2 ? 1 : -1) * node[k / 2]) / 2, rate = rate_at(e, from + at * length);
     sum += weight[k / 2] / 2 * rate;
     most = fmax(most, fabs(rate));
   }

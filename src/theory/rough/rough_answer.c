@@ -132,7 +132,7 @@ static void answer_shear(const gg_model *m, const gg_rough_steady *s, gg_theory_
 
 static gg_theory_answer nothing(void)
 {
-  gg_theory_answer a;
+  gg_theory_answer a = {.remark = ""};
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) a.value[q] = a.error[q] = NAN;
   return a;
 }
