@@ -11,6 +11,7 @@
 #ifndef GG_SPEED_LAWS_H
 #define GG_SPEED_LAWS_H
 
+#include <stddef.h>
 #include <stdbool.h>
 #include <stdint.h>
 
