@@ -5,6 +5,9 @@
 #include <hdf5.h>
 #include <signal.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "base/memory.h"
 
@@ -16,8 +19,18 @@ static void keep_standard_streams(void)
     if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
 }
 
+/* Large blocks go back to the system when they are freed. By default glibc raises the size from which it does so, and
+ * a run of 250 000 grains took 115 or 128 MB, depending on the order of its threads. */
+static void return_large_blocks(void)
+{
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+#endif
+}
+
 gg_status gg_files_process_prepare(gg_error *err)
 {
+  return_large_blocks();
   keep_standard_streams();
   signal(SIGXFSZ, SIG_IGN); /* a file above the size limit is an error of the write, and does not end the program */
   signal(SIGPIPE, SIG_IGN);
