@@ -51,7 +51,8 @@ SCENES = ((True, "{flow: usf, phi: 0.1, collision: {e: {11: 0.9, other: 0.8}, be
           (False, "{flow: fourier, phi: 0.1, walls: {temperature: [2]}}"), (False, "{flow: fourier, phi: 0.1, walls: {temperature: [2, 0]}}"),
           (False, "{flow: usf, phi: 0.1, measure: [colour]}"), (False, "{flow: usf, phi: 0.1, gravity: [0, 1]}"),
           (False, "{flow: usf, phi: 0.1, species: [{fracton: 1}]}"), (False, "{flow: usf, phi: 0.1, run: {replicas: 1.5}}"),
-          (False, "{flow: usf, phi: 0.1, run: {until: {colour: 0.1}}}"), (False, "{flow: usf, phi: 0.1, shear_rate: 0}"))
+          (False, "{flow: usf, phi: 0.1, run: {until: {colour: 0.1}}}"), (False, "{flow: usf, phi: 0.1, shear_rate: [1]}"),
+          (True, "{flow: usf, phi: 0.1, shear_rate: sin(t), run: {duration: 5}}"))
 
 
 def test_the_schema_accepts_what_the_program_does():
