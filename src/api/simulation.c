@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "common/extension.h"
 #include "common/rng.h"
+#include "run/default_size.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
 
@@ -46,9 +47,11 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   gg_simulation *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
   gg_base_busy_init(&s->busy, "simulation", destroy, s);
-  gg_scene start = *scene; /* checked as it began: a rate of 0 or below is one on the way */
-  if (scene->fixed.clock_rate != GG_AUTO && gg_flow_is_sheared(scene->flow)) start.shear.rate = scene->fixed.clock_rate;
-  gg_status status = gg_api_scene_finish(&start, &s->scene, err);
+  s->scene = *scene; /* checked as it began: a rate of 0 or below is one on the way */
+  if (scene->fixed.clock_rate != GG_AUTO && gg_flow_is_sheared(scene->flow))
+    s->scene.shear.rate = scene->fixed.clock_rate;
+  s->scene.fixed.clock_rate = GG_AUTO;
+  gg_status status = gg_run_scene_finish(&s->scene, err);
   s->scene.shear.rate = scene->shear.rate;
   s->scene.fixed.clock_rate = scene->fixed.clock_rate;
   if (status == GG_OK) status = gg_scene_model_make(&s->scene, s->scene.engine, &s->model, err);

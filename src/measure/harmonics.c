@@ -165,7 +165,7 @@ static void add_curve(const gg_oscillation *o, const double *amplitude, int curv
   const gg_model *m = o->model;
   const char *unit = gg_common_quantity_unit(curve ? GG_Q_TEMPERATURE : GG_Q_P_XY, m);
   gg_curve *c = gg_measure_curve_add(list, o->steps + 1, curve ? "temperature_in_period" : "stress_over_strain",
-                                     curve ? "T in a period" : "-P_{xy} over the strain", "measured");
+                                     curve ? "T in a period" : "stress over strain", "measured");
   gg_measure_curve_axes(c, curve ? "t" : "strain", curve ? gg_measure_curve_unit(m, "time") : "1",
                         curve ? "T" : "-P_{xy}", unit);
   c->samples = (uint64_t)(o->n * o->periods);

@@ -106,7 +106,7 @@ gg_status gg_scene_shear_finish(gg_scene *s, gg_error *err)
   }
   if (!(most > 0 && most < 1e30))
     return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_rate': '%s' is %s", s->shear.formula,
-                        most == 0 ? "0 all the time" : "infinite or no number at some time");
+                        most == 0 ? "0 all the time" : "infinite or not a number at some time");
   s->shear.rate = most;
   return GG_OK;
 }

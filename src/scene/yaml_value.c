@@ -9,9 +9,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "common/expression.h"
 #include "base/memory.h"
 #include "base/spelling.h"
+#include "common/expression.h"
 #include "common/quantity.h"
 #include "scene/scene_reader.h"
 

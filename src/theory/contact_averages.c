@@ -2,9 +2,10 @@
 /* The integrals over velocities, at fixed direction k, are those of a Gaussian vector z = (g, C_1, s_1) with mean m
  * and covariance S, weighted by the normal velocity u = k.g > 0, u ~ N(mu, v). With the regression on u, R = S
  * k_g/v, B = m - R mu, C = S - v R R^T, and I_p = int_0^inf u^p N(u; mu, v) du:
- *   <u+ z> = I_1 B + I_2 R,   <u+ z z^T> = I_1 (B B^T + C) + I_2 (B R^T + R B^T) + I_3 R R^T
- * With e(u), J = jn(u) u k + jt (g - u k), and three more integrals hold jn: D_p = int jn u^p N du, p = 2, 3, and
- * E_3 = int jn^2 u^3 N du. */
+ *   <u+ z> = I_1 B + I_2 R,   <u+ z z^T> = I_1 (B B^T + C) + I_2 (B R^T + R B^T) + I_3 R R^T.
+ *
+ * With e(u) the impulse is J = jn(u) u k + jt (g - u k). Three more integrals hold jn:
+ * D_p = int jn u^p N du, p = 2, 3, and E_3 = int jn^2 u^3 N du. */
 #include "theory/contact_averages.h"
 
 #include <math.h>
