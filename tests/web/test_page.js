@@ -302,7 +302,7 @@ const tests = {
     const bad = encodeURIComponent("{flow: usf, phi: 7}"),
       good = encodeURIComponent("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}");
     const tab = await open(`#scene=${bad}`);
-    assert.match(await banner(tab), /requests for a gas that is not possible.*phi/s);
+    assert.match(await banner(tab), /asks for a gas that is not possible.*phi/s);
     assert.strictEqual(await tab.value("S().lesson"), "temperature");
     await tab.value("byId('lesson-friction').click()");
     await tab.until("S().lesson === 'friction' && V().collision.mu === 0.2 && location.hash === '#lesson=friction'", quick);
@@ -392,7 +392,7 @@ const tests = {
     await tab.press("f");
     await tab.until("S().view === 'present' && document.querySelector('header').offsetWidth === 0 && byId('chart').offsetWidth > 200", quick);
     await tab.value("byId('leave').click()"); /* a board without keys */
-    await tab.until("S().view === 'all' && document.querySelector('header').offsetWidth > 0 && byId('leave').offsetWidth === 0", quick);
+    await tab.until("S().view === 'all' && !document.fullscreenElement && document.querySelector('header').offsetWidth > 0 && byId('leave').offsetWidth === 0", quick);
     await tab.press("f");
     await tab.until("S().view === 'present'", quick);
     const sizes = "[document.documentElement.scrollHeight - innerHeight, byId('lesson').scrollHeight - byId('lesson').clientHeight, parseFloat(getComputedStyle(byId('question')).fontSize)]";
