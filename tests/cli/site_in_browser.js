@@ -10,8 +10,7 @@ const SEEN = `(() => {
   const button = [...document.querySelectorAll(".theme-toggle")].find((one) => one.offsetWidth > 0);
   if (button) button.click();
   return { margin: getComputedStyle(document.body).margin, wide: document.documentElement.scrollWidth, window: innerWidth,
-    contents: at ? [at.left, at.right] : null, theme: [before, document.body.dataset.theme],
-    sheets: [...document.styleSheets].map((one) => { try { return one.cssRules.length; } catch (e) { return -1; } }) };
+    contents: at ? [at.left, at.right] : null, theme: [before, document.body.dataset.theme] };
 })()`;
 
 async function main(files) {
@@ -22,9 +21,10 @@ async function main(files) {
     const tab = await browser.open(file, { width: 1366 });
     await tab.until("document.readyState === 'complete'", 60);
     await new Promise((r) => setTimeout(r, 500)); /* messages of scripts that load late */
-    const seen = await tab.value(SEEN);
+    const said = [...tab.said], /* the theme names its mode after the click */
+      seen = await tab.value(SEEN);
     if (process.env.PICTURES) await tab.picture(`${process.env.PICTURES}/${file.replace(/.*html\/|\.html$/g, "").replace(/\//g, "_")}.png`);
-    console.log(JSON.stringify({ file, said: tab.said, failed: failed.splice(0), elsewhere: tab.fetched.filter((url) => !/^(file|data):/.test(url)), ...seen }));
+    console.log(JSON.stringify({ file, said, failed: failed.splice(0), elsewhere: tab.fetched.filter((url) => !/^(file|data):/.test(url)), ...seen }));
     await tab.close();
   }
   await browser.close();

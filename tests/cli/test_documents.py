@@ -272,7 +272,8 @@ def flows_of(support, word):
 
 
 def test_info_names_the_flows_of_the_page():
-    """`graingas info` of an observable names the flows that the page of support has."""
+    """`graingas info` of an observable names the flows that the page of support has, of a flow the thermostats; scenes
+    with them are accepted, others rejected or warned of."""
     support, (names, _) = documents()["docs/reference/support.md"], names_of("observables")
     for name in names:
         told = run("info", name, "--all").out
@@ -280,6 +281,12 @@ def test_info_names_the_flows_of_the_page():
             flows = re.search(rf"^  {engine} +((?:.|\n   )*)", told, re.MULTILINE)[1].split()
             expected = [flow for flow, cell in flows_of(support, name).items() if engine[0] in cell]
             check([flow.strip(",") for flow in flows] == (expected or ["none"]), name, engine, told)
+    for flow, thermostats in re.findall(r"^\| `(\w+)` \|.*\| ([^|]*) \|$", support.split("## Observables")[0], re.MULTILINE):
+        thermostats = thermostats.replace("\\", "")
+        check(f"\n  thermostats  {thermostats}\n" in run("info", flow, "--all").out, flow, thermostats)
+        for one in "none", "gaussian", "white_noise", "bath":
+            done = run("info", "-", typed=f"flow: {flow}\nphi: 0.1\nthermostat: {one}\nbath: {{drag: 1, temperature: 1}}\n")
+            check((one in thermostats.split(", ")) == ("thermostat" not in done.err), flow, one, done.err)
 
 
 def test_flows_of_theories():

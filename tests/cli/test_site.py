@@ -112,7 +112,7 @@ def test_in_a_browser():
     check(len(pages) == len(names), done.stdout)
     for one in pages:
         check(not one["said"] and not one["failed"] and not one["elsewhere"], one)
-        check(one["margin"] == "0px" and min(one["sheets"]) > 0, one)
+        check(one["margin"] == "0px", one)  # of normalize.css
         check(one["wide"] <= one["window"] == 1366 and one["theme"][0] != one["theme"][1], one)
         check(one["contents"] is None or 0 <= one["contents"][0] < one["contents"][1] <= 1366, one)
     check(sum(one["contents"] is not None for one in pages) >= 4, pages)
