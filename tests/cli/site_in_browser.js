@@ -24,7 +24,7 @@ async function main(files) {
     const said = [...tab.said], /* the theme names its mode after the click */
       seen = await tab.value(SEEN);
     if (process.env.PICTURES) await tab.picture(`${process.env.PICTURES}/${file.replace(/.*html\/|\.html$/g, "").replace(/\//g, "_")}.png`);
-    console.log(JSON.stringify({ file, said, failed: failed.splice(0), elsewhere: tab.fetched.filter((url) => !/^(file|data):/.test(url)), ...seen }));
+    console.log(JSON.stringify({ file, said, failed: failed.splice(0), elsewhere: tab.fetched.filter((url) => !/^(file|data|blob):/.test(url)), ...seen }));
     await tab.close();
   }
   await browser.close();
