@@ -28,12 +28,13 @@ static json_t *agreement_json(const gg_agreement *a)
 {
   json_t *rows = json_array();
   for (int i = 0; i < a->n; i++) {
-    const gg_agreement_row *r = &a->row[i];
-    json_array_append_new(rows, json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "quantity", r->quantity, "points",
-                                          (json_int_t)r->n, "mean_z", gg_io_json_finite(r->mean), "mean_z_allowed",
-                                          gg_io_json_finite(r->most_mean), "mean_z2", gg_io_json_finite(r->variance),
-                                          "mean_z2_allowed", gg_io_json_finite(r->most_variance), "largest_z",
-                                          gg_io_json_finite(r->largest), "fails", r->fails));
+    const gg_scores *r = &a->row[i].scores;
+    json_array_append_new(rows,
+                          json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "quantity", a->row[i].quantity,
+                                    "points", (json_int_t)r->n, "mean_z", gg_io_json_finite(r->mean), "mean_z_allowed",
+                                    gg_io_json_finite(r->most_mean), "mean_z2", gg_io_json_finite(r->variance),
+                                    "mean_z2_allowed", gg_io_json_finite(r->most_variance), "largest_z",
+                                    gg_io_json_finite(r->largest), "fails", r->fails));
   }
   json_t *agrees = a->n_values ? json_boolean(!a->fails) : json_null(); /* null: nothing was compared */
   return json_pack("{s:o, s:I, s:I, s:I, s:I, s:o, s:o}", "agrees", agrees, "points", (json_int_t)a->n_points, "values",
