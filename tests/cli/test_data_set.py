@@ -100,11 +100,11 @@ def test_make_continues_where_it_stopped_and_collect_gives_the_committed_rows():
                               env=dict(os.environ, GRAINGAS=GRAINGAS), timeout=100 * PATIENCE)
         check(done.returncode == 0 and f"{len(plan) - k} of {len(plan)} points are missing" in done.stdout, done.stdout, done.stderr)
         check(sorted(os.listdir("points")) == sorted(os.path.basename(data_set.path_of(p, "")) for p in plan[:k + 1]), plan[:3])
-    found = data_set.tables("points")
-    for table, rows in found.items():
-        committed = {tuple(r[k] for k in (*data_set.STATE, "method")): r for r in data_set.read(table) if r.get("flow", "usf") == "usf"}
-        for row in (r for r in rows if r["method"] not in data_set.ENGINES and table in ("usf", "runs")):
-            known = committed[tuple(row[k] for k in (*data_set.STATE, "method"))]
+    keys = ("flow", *data_set.STATE, "method")
+    for table, rows in data_set.tables("points").items():
+        committed = {tuple(r.get(k) for k in keys): r for r in data_set.read(table)}
+        for row in (r for r in rows if r["method"] not in data_set.ENGINES):
+            known = committed[tuple(row.get(k) for k in keys)]
             same = {k: str(v) for k, v in row.items() if k not in ("seconds", "version", "build")}
             check(all(known[k] == v for k, v in same.items()), table, same, known)
 
