@@ -7,6 +7,7 @@
 #include "md/epoch.h"
 #include "md/event_loops.h"
 #include "md/grid.h"
+#include "md/images.h"
 #include "md/kicks.h"
 #include "md/md_allocate.h"
 #include "md/md_operations.h"
@@ -34,6 +35,7 @@ static void take_over(gg_md *e, const gg_md *before)
   k->worst_overlap = before->k.worst_overlap;
   k->power = before->k.power;
   k->rng = before->k.rng;
+  k->image_turns = gg_md_turns(before);
 }
 
 static gg_status begin_with(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
@@ -42,6 +44,7 @@ static gg_status begin_with(gg_md *e, uint64_t seed, uint64_t stream, const gg_g
   if (before) e->box.offset0 = gg_md_offset(&before->box, before->k.now);
   GG_TRY(gg_md_start(e, seed, stream, grains, err));
   if (before) take_over(e, before);
+  if (before && before->image) GG_TRY(gg_md_take_images(e, before, err));
   if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY && grains->c && gg_md_has_drift(e))
     gg_md_follow_centre_of_mass(e);
   const double T = gg_md_temperature(e);
@@ -68,6 +71,7 @@ static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stre
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
 {
   gg_md *e;
+  if (model->start) return create_with(model, seed, stream, model->start, NULL, engine, err);
   GG_TRY(gg_md_accepts(model, err));
   if (gg_md_starts_in_equilibrium(model))
     return gg_md_create_in_equilibrium(&gg_md_ops, model, seed, stream, NULL, engine, err);
@@ -200,6 +204,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .events = e->k.events,
                          .treated = e->k.treated,
                          .offset = gg_md_offset(&e->box, e->k.now),
+                         .turns = gg_md_turns(e),
                          .wall_treated = e->k.wall_treated,
                          .clamped = e->k.clamped,
                          .worst_overlap = e->k.worst_overlap,
@@ -211,7 +216,7 @@ static void bring_to_present(gg_md *e)
 {
   gg_md_counts *k = &e->k;
   const double now = k->now;
-  e->box.offset0 = gg_md_offset(&e->box, now);
+  gg_md_move_images(e, now);
   for (uint32_t i = 0; i < e->n; i++) {
     gg_md_grain *g = &e->grain[i];
     g->r = gg_md_position(e, e->falls, g, now);
@@ -310,6 +315,7 @@ const gg_engine_ops gg_md_ops = {
     .destroy = destroy,
     .advance = advance,
     .keep_sums = keep_sums,
+    .keep_images = gg_md_keep_images,
     .take_sums = take_sums,
     .set_callback = set_callback,
     .threads = threads,

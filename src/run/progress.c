@@ -94,7 +94,7 @@ static double last_test(const gg_progress_estimate *o, const gg_stopping_criteri
 {
   while (!gg_run_criteria_end(criteria, restarts, window)) {
     gg_window_test t = test_at(o, criteria, window, doubts);
-    if (gg_run_criteria_are_met(&t, exact)) break;
+    if (gg_run_criteria_are_met(criteria, &t, exact)) break;
     exact = t.exact;
     window = gg_run_criteria_next_test(criteria, restarts, &t);
   }
@@ -120,7 +120,7 @@ gg_expected_end gg_run_progress_end(const gg_progress_estimate *o, const gg_stop
                                     const struct gg_replicas_state *s)
 {
   uint64_t restarts = s->restarts, window = s->goal - s->window_at;
-  bool anew = s->averaging && o->trending && gg_run_criteria_restart(criteria, restarts);
+  bool anew = s->averaging && o->trending && gg_run_criteria_restart(criteria, restarts, window);
   double begins = (double)(anew ? s->goal : criteria->warmup);
   if (s->averaging && !anew) {
     gg_expected_end end = mean_last_test(o, criteria, restarts, s->exact, window, (double)(s->due - s->window_at));

@@ -15,6 +15,7 @@ typedef struct gg_stopping_criteria { /* stopping criteria, chosen before the ru
   double relative_error;        /* 0: none; the smallest where quantities have their own */
   double time_limit;            /* seconds, 0: none */
   bool find_steady;             /* give up windows that show a trend */
+  bool extends; /* the run may continue to other criteria: tests are at samples that no criterion moves */
 } gg_stopping_criteria;
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
@@ -81,8 +82,8 @@ enum { GG_NOT_STOPPED, GG_OUT_OF_TIME, GG_STOP_REQUESTED }; /* why a run is stop
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
 /* The relative error requested of a quantity; INFINITY: none. */
 double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg_quantity q);
-/* True if a window with a trend is given up, after `restarts` earlier ones. */
-bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts);
+/* True if a window of this length with a trend is given up, after `restarts` earlier ones. */
+bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
 /* True if a window of this length ends the run, whatever its errors. */
 bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
 
@@ -98,10 +99,12 @@ typedef struct gg_window_test {
  * and the estimate at its end counts. A sure window is not extended: its tests are few, since each is at the end
  * predicted by the last, and its estimate scatters little. (Simulated with independent blocks, without the error of the
  * error: the mean square of deviations over claimed errors is 1.07 without extension, 1.05 with it, 1.03 for windows of
- * fixed length; with 16 blocks 1.3, 1.16 and 1.15.) */
-bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before);
+ * fixed length; with 16 blocks 1.3, 1.16 and 1.15.) A run that may be extended has no memory of earlier tests: its
+ * error has to be as small as after that half. */
+bool gg_run_criteria_are_met(const gg_stopping_criteria *criteria, const gg_window_test *test, bool exact_before);
 /* Length at which the window is tested next, after that test; NULL: first. It grows by a quarter a time; of one that is
- * sure, to where its error should be a twentieth smaller than requested. */
+ * sure, to where its error should be a twentieth smaller than requested. By a quarter of a run that may be extended: it
+ * then passes the same tests as a run with other criteria, and gives up the same windows. */
 uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last);
 
 /* Factor that enlarges errors by which a run stops, since it stops where their estimate is low; 1 for other errors. In

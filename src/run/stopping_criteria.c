@@ -67,7 +67,8 @@ double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg
 
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model)
 {
-  gg_stopping_criteria p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
+  gg_stopping_criteria p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady,
+                            .extends = scene->output.state == GG_STATE_KEPT};
   double slowest = gg_common_model_relaxation(model), gap = gg_common_model_gap_relaxation(model);
   double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
   p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);
@@ -100,9 +101,19 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
 /* Windows that may be given up: averaging does not begin anew for ever. */
 enum { MOST_RESTARTS = 6 };
 
-bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts)
+/* The next length above `window` of those that grow by a quarter. */
+static uint64_t next_quarter(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window)
 {
-  return criteria->find_steady && restarts < MOST_RESTARTS;
+  uint64_t next = criteria->least << restarts;
+  while (next <= window) next += next / 4;
+  return next;
+}
+
+/* A window that ends a run by its length is tested there for no other reason. */
+bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window)
+{
+  const bool regular = !criteria->extends || next_quarter(criteria, restarts, window - 1) == window;
+  return criteria->find_steady && restarts < MOST_RESTARTS && window >= criteria->least && regular;
 }
 
 bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window)
@@ -111,15 +122,18 @@ bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts
          (criteria->relative_error > 0 && window >= criteria->longest << restarts);
 }
 
-bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before)
+bool gg_run_criteria_are_met(const gg_stopping_criteria *criteria, const gg_window_test *test, bool exact_before)
 {
+  if (criteria->extends) exact_before = test->ratio * test->ratio <= 1 / 1.5;
   return test->exact && (test->sure || exact_before);
 }
 
 uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last)
 {
   uint64_t next = criteria->least << restarts;
-  if (last && last->window >= next)
+  if (last && criteria->extends)
+    next = next_quarter(criteria, restarts, last->window);
+  else if (last && last->window >= next)
     next = last->exact ? last->window + last->window / 2
            : last->sure && last->ratio > 0
                ? (uint64_t)ceil(fmin(fmax(1.1 * last->ratio * last->ratio, 1.1), 2) * (double)last->window)
