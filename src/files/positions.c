@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "files/h5/result_reader.h"
+#include "scene/scene.h"
 
 static const char *const elements[] = {"H", "He", "Li", "Be", "B",  "C",  "N", "O",
                                        "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S"};
@@ -92,7 +93,7 @@ static gg_status read_h5md(const char *path, size_t n, gg_positions *to, double 
     memcpy(to->r + 3 * i, frame.position + 3 * i, 3 * sizeof *to->r);
     to->species[i] = t.species[i];
   }
-  gg_run_frame_free(&frame);
+  gg_measure_frame_free(&frame);
   gg_files_stored_trajectory_close(&t);
   return status;
 }

@@ -4,7 +4,8 @@
 #define GG_POSITIONS_H
 
 #include "common/engine.h"
-#include "scene/scene.h"
+
+typedef struct gg_scene gg_scene;
 
 typedef struct gg_positions {
   double *r;

@@ -80,7 +80,7 @@ bool gg_md_next_epoch(gg_md *e)
   gg_md_turn_spins(e, span);
   e->k.stop -= span;
   if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY) gg_md_kicks_follow(e, gg_md_follow_centre_of_mass(e));
-  if (e->heat == GG_HEAT_SCALES) {
+  if (e->heat == GG_HEAT_SCALES && !e->model.linear_response) {
     span /= e->k.scale;
     gg_md_thermostat_fold(e);
   }

@@ -15,6 +15,7 @@
 #include "scene/ensemble_size.h"
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
+#include "theory/near_steady.h"
 
 /* Automatic ensembles and time steps of dsmc follow the requested error. A run that continues keeps those of its start.
  */
@@ -110,7 +111,7 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
     gg_error why = {0};
     if (wanted && !wanted[i]) continue;
     if (theory->own && !started) {
-      GG_TRY(gg_run_start_near_steady(start, err));
+      GG_TRY(gg_theory_start_near_steady(start, err));
       started = true;
     }
     const int n = c->n_theories;
