@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "files/positions.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "common/engine_grains.h"
 #include "files/h5/result_reader.h"
 #include "scene/scene.h"
 
@@ -98,36 +98,6 @@ static gg_status read_h5md(const char *path, size_t n, gg_positions *to, double 
   return status;
 }
 
-/* To the model's unit of length and, along periodic edges, into the box. */
-static gg_status take(const gg_model *m, gg_positions *p, const double edges[9], double unit, gg_error *err)
-{
-  int64_t count[GG_MAX_SPECIES + 1] = {0};
-  const double *box = m->box, lean = fabs(edges[1]) + fabs(edges[2]) + fabs(edges[3]) + fabs(edges[5]) +
-                                     fabs(edges[6]) + fabs(edges[7]);
-  if (p->n != (size_t)m->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "has %zu grains, the scene %lld (particles)", p->n, (long long)m->n);
-  for (int a = 0; a < 3 && edges[0] != 0; a++)
-    if (!(fabs(edges[4 * a] * unit - box[a]) <= 1e-6 * box[a] && lean <= 1e-9 * box[0]))
-      return gg_base_fail(
-          err, GG_BAD_INPUT, "its box is %g x %g x %g%s, the scene's %g x %g x %g (phi, particles, aspect)", edges[0],
-          edges[4], edges[8], lean > 0 ? ", and leans" : "", box[0] / unit, box[1] / unit, box[2] / unit);
-  for (size_t i = 0; i < p->n; i++) {
-    if (m->n_species == 1) p->species[i] = 0;
-    count[p->species[i] < GG_MAX_SPECIES ? p->species[i] : GG_MAX_SPECIES]++;
-    for (int a = 0; a < 3; a++) {
-      double *x = &p->r[3 * i + (size_t)a];
-      *x *= unit;
-      if (!gg_common_surface_is_closed(m, a)) *x -= box[a] * floor(*x / box[a]);
-      if (!isfinite(*x)) return gg_base_fail(err, GG_BAD_INPUT, "the position of grain %zu is infinite", i);
-    }
-  }
-  for (int k = 0; k < m->n_species; k++)
-    if (count[k] != m->n_of[k])
-      return gg_base_fail(err, GG_BAD_INPUT, "has %lld grains of species %d, the scene %lld", (long long)count[k],
-                          k + 1, (long long)m->n_of[k]);
-  return GG_OK;
-}
-
 gg_status gg_files_positions_read(const gg_scene *scene, const gg_model *model, gg_positions *to, gg_error *err)
 {
   const char *path = scene->start.positions, *ending = strrchr(path, '.');
@@ -141,7 +111,8 @@ gg_status gg_files_positions_read(const gg_scene *scene, const gg_model *model, 
   if (!to->r || !to->species) return GG_FAILED;
   to->grains = (gg_grain_arrays){.r = to->r, .species = model->n_species > 1 ? to->species : NULL};
   gg_status status = (h5 ? read_h5md : read_xyz)(path, n, to, edges, err);
-  if (status == GG_OK) status = take(model, to, edges, h5 ? 1 : 1 / model->unit.length, err);
+  if (status == GG_OK)
+    status = gg_common_positions_fit(model, to->n, edges, h5 ? 1 : 1 / model->unit.length, to->r, to->species, err);
   return status == GG_OK ? GG_OK : gg_base_error_prefix(err, status, "start.positions: %s", path);
 }
 

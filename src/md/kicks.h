@@ -20,7 +20,7 @@ static inline bool gg_md_has_kicks(const gg_md *e)
 
 /* Under shear the Gaussian thermostat has no exact map, since the flow sets the clock. There it returns the energy that
  * collisions took from the velocities every half mean free time, by one factor for all peculiar velocities. In between
- * T is lower by up to 12 % (e = 0), which the reduced stress -P_xy/(n T) does not feel in first order. */
+ * T is lower by up to a sixth (e = 0), which the reduced stress -P_xy/(n T) does not feel in first order. */
 static inline bool gg_md_compensates(const gg_md *e)
 {
   return e->heat == GG_HEAT_SCALES && e->model.linear_response;
