@@ -22,7 +22,7 @@ from .hydrodynamics import LocalFluxes, local_fluxes
 from .live import View
 from .relaxation import Relaxation, TimeSeries, relax
 from .result import Result, export
-from .run import compare, read, run
+from .run import compare, extend, read, run
 from .scene import Scene
 from .simulation import Simulation
 from .sweep import Sweep, Verdict, sweep, validate
@@ -33,7 +33,7 @@ __version__ = text(_c.lib.gg_version())
 
 __all__ = [  # what help(graingas) shows
     "BadFile", "BadInput", "Busy", "catalogue", "cite", "compare", "Comparison", "Curve", "define_law",
-    "define_observable", "define_theory", "DoesNotApply", "Estimate", "export", "GraingasError", "Grains", "Grid", "local_fluxes",
+    "define_observable", "define_theory", "DoesNotApply", "Estimate", "export", "extend", "GraingasError", "Grains", "Grid", "local_fluxes",
     "LocalFluxes", "NotFound", "PartialResult", "plot", "read", "relax", "Relaxation", "Result", "run", "RunFailed",
     "scan", "Scene", "Simulation", "Sweep", "sweep", "theories", "Theory", "theory", "TimeSeries", "Trajectory",
     "trajectory", "validate", "Verdict", "View",

@@ -45,7 +45,7 @@ class BathKeys:
 class CollisionKeys:
     """The keys below `collision`."""
 
-    e: Union[float, dict]  # coefficient of normal restitution; in equilibrium the default is 1
+    e: Union[float, dict]  # coefficient of normal restitution; in equilibrium the default is 1; a formula or table may exceed 1
     beta: Union[float, dict]  # coefficient of tangential restitution: -1 smooth, 1 perfectly rough; with finite mu, of sticking contacts
     mu: Union[float, dict]  # Coulomb friction coefficient; inf: beta is constant
     normal_kick: Union[float, dict]  # D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D
@@ -72,6 +72,7 @@ class OutputKeys:
     """The keys below `output`."""
 
     checkpoint_every: float  # wall-clock time between checkpoints; 0: none
+    state: str  # checkpoint at the end of a finished run
     trajectory_every: float  # interval between stored frames; 0: only the last state
     after: str  # first frame that is stored
     fields: Union[str, list[str]]  # what frames in the result file hold of every grain; velocity is always among it
@@ -99,6 +100,7 @@ class StartKeys:
     rotational_temperature: Union[float, str]  # initial rotational temperature; auto: near the steady state
     a2: float  # initial fourth cumulant of the velocities: C^2 has the gamma distribution of shape 0.6/(0.4 + a2)
     spin: Union[float, str]  # initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0
+    positions: str  # initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, without overlaps; its path is relative to the scene's file, and only a start reads it
 
 
 class WallsKeys:
@@ -125,14 +127,17 @@ class SceneKeys:
     contact_value: str  # formula for the pair correlation at contact
     phi: float  # solid fraction; required; 0 is the Boltzmann limit (dsmc only)
     particles: int  # number of grains in the box; by default fewer, from 500 on, where a box of 1000 that cools or has the Gaussian thermostat would not stay homogeneous
-    shear_rate: float  # imposed shear rate
+    shear_rate: Any  # imposed shear rate: above 0; with run.duration also 0, below 0, or a formula of the time t, "sin(2*pi*t/10)", whose mean in each of shear_steps steps is imposed
+    shear_steps: int  # number of equal steps of constant shear rate, at whose ends the gas is sampled: in shear_period, or in run.duration
+    shear_period: Union[float, None]  # period of the formula; run.duration has a whole number of them, two or more: of the later half amplitudes and phases of stress and temperature are computed
     aspect: list[float]  # shape of the box: ratio of its edges x : y : z
     species: list[dict]  # species of the mixture, up to 16
     gravity: list[float]  # body force per mass; poiseuille and chute have defaults of their own
     protocol: list[dict]  # what changes on the way, at times from the start: [{at: 5, bath.temperature: 2}]; keys: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, shear_rate
     measure: Union[str, list[str]]  # observables to measure; unlisted ones cost nothing
     frame: str  # what peculiar velocities and spins are relative to, in means and distributions
-    frame_cells: int  # cells along each edge of the box; at least 4 grains per cell
+    frame_cells: int  # cells along each edge of the box, or slabs along y; at least 4 grains in each
+    local_densities: Any  # solid fractions of the cells of local_distributions, each within a tenth; auto: 0.5, 0.75, 1, 1.25, 1.5 times phi
     bath: BathKeys
     collision: CollisionKeys
     dsmc: DsmcKeys
@@ -146,6 +151,7 @@ class SceneKeys:
     rotational_temperature: Union[float, str]  # initial rotational temperature; auto: near the steady state
     a2: float  # initial fourth cumulant of the velocities: C^2 has the gamma distribution of shape 0.6/(0.4 + a2)
     spin: Union[float, str]  # initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0
+    positions: str  # initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, without overlaps; its path is relative to the scene's file, and only a start reads it
     normal_kick: Union[float, dict]  # D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D
     tangential_kick: Union[float, dict]  # D_t of kicks at contact: the surface of grain 1 gets 2 D_t k x z against that of grain 2, k from 1 to 2; above 0 the pair turns about z by the right hand
     law: str  # dependence of e on the normal speed of a collision between grains
@@ -163,11 +169,12 @@ class SceneKeys:
     contact_time: Union[float, str]  # collisions of a grain closer in time than this lose no normal energy, against inelastic collapse; 0: off; auto: 1e-5, tenfold up to 1e-3 where grains collapse nevertheless; with gravity along y 1e-3 sqrt(d/g)
     time_step: Union[float, str]  # time step of the Monte Carlo engine
     checkpoint_every: float  # wall-clock time between checkpoints; 0: none
+    state: str  # checkpoint at the end of a finished run
     trajectory_every: float  # interval between stored frames; 0: only the last state
     after: str  # first frame that is stored
     fields: Union[str, list[str]]  # what frames in the result file hold of every grain; velocity is always among it
     log: str  # file to which a run appends a row for each sample of its first replica: time, collisions, headline quantities and their means so far; beside the result, unless its path is absolute
-    e: Union[float, dict]  # coefficient of normal restitution; in equilibrium the default is 1
+    e: Union[float, dict]  # coefficient of normal restitution; in equilibrium the default is 1; a formula or table may exceed 1
     beta: Union[float, dict]  # coefficient of tangential restitution: -1 smooth, 1 perfectly rough; with finite mu, of sticking contacts
     mu: Union[float, dict]  # Coulomb friction coefficient; inf: beta is constant
     theories: dict[str, Any]
@@ -185,6 +192,8 @@ class KeyWords(TypedDict, total=False):
     phi: Any
     particles: Any
     shear_rate: Any
+    shear_steps: Any
+    shear_period: Any
     aspect: Any
     species: Any
     gravity: Any
@@ -192,6 +201,7 @@ class KeyWords(TypedDict, total=False):
     measure: Any
     frame: Any
     frame_cells: Any
+    local_densities: Any
     bath: Any
     collision: Any
     dsmc: Any
@@ -205,6 +215,7 @@ class KeyWords(TypedDict, total=False):
     rotational_temperature: Any
     a2: Any
     spin: Any
+    positions: Any
     normal_kick: Any
     tangential_kick: Any
     law: Any
@@ -222,6 +233,7 @@ class KeyWords(TypedDict, total=False):
     contact_time: Any
     time_step: Any
     checkpoint_every: Any
+    state: Any
     trajectory_every: Any
     after: Any
     fields: Any

@@ -2,6 +2,7 @@
 """Runs and comparisons, until the scene's stopping criteria are met."""
 from __future__ import annotations
 
+import os
 import warnings
 from contextlib import contextmanager
 from typing import Callable, Optional, Union
@@ -9,10 +10,10 @@ from typing import Callable, Optional, Union
 from . import _c, calls
 from .arguments import whole
 from .comparison import Comparison, read_comparison
-from .errors import BadInput, PartialResult, check, encode, exception, lib, new_error, text
+from .errors import BadFile, BadInput, PartialResult, check, encode, exception, lib, new_error, text
 from .progress import reporter
 from .result import Result, read_result
-from .scene import as_scene
+from .scene import Scene, as_scene
 from .structs import new
 
 ffi = _c.ffi
@@ -79,8 +80,15 @@ def _finish(call, status, error, made):
     return made
 
 
+def _state_of(result):
+    """The checkpoint beside a result."""
+    return os.path.splitext(result)[0] + ".checkpoint.h5" if str(result).endswith(".h5") else f"{result}.checkpoint.h5"
+
+
 def _long_run(function, kind, engines, scene, keys, threads, progress, accept_version, files):
     scene = as_scene(scene).copy(**keys)
+    if scene["output.state"] == "kept" and files["output"] and not files["checkpoint"]:
+        files = {**files, "checkpoint": _state_of(os.fspath(files["output"]))}
     call, error = calls.Call(), new_error()
     options = _options(call, threads, accept_version, {**files, "input": scene._file})
     made = ffi.new(kind + " **")
@@ -118,6 +126,33 @@ def compare(scene, threads: Optional[int] = 1, output=None, checkpoint=None, res
     """Runs both engines and evaluates every theory; returns a Comparison. Parameters and errors are those of run()."""
     return _long_run(lib.gg_compare, "gg_comparison", 2, scene, keys, threads, progress, accept_version,
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
+
+
+def extend(result, threads: Optional[int] = 1, output=None, progress: Union[bool, None, Callable] = None,
+           accept_version: bool = False, **keys) -> Union[Result, Comparison]:
+    """Continues a finished run or comparison to other stopping criteria: extend("usf.h5", relative_error=0.001).
+
+    result       its file, of a scene with output.state: kept; its state is beside it (usf.checkpoint.h5 for usf.h5)
+    keys         keys to change: stopping criteria (run.relative_error, run.until, run.collisions, run.time_limit) and output
+    output       file of the new result; by default it takes the place of the old one
+    threads, progress, accept_version: as of run()
+
+    The numbers are, bit for bit, those of a run that had these criteria from the start; a warning of the result says where
+    they may differ. Raises BadFile if no state was kept.
+    """
+    result = os.fspath(result)
+    state, made, error = _state_of(result), ffi.new("gg_scene **"), new_error()
+    if not os.path.exists(state):
+        raise BadFile(f"{result}: has no state to continue from: {state} is not there (it stays after a run of a scene with "
+                      "output.state: kept)")
+    info = ffi.new("gg_checkpoint_info *")
+    status = lib.gg_checkpoint_about(encode(state, "file name"), info, made, error)
+    if status != lib.GG_OK:
+        raise exception(status, error)
+    scene = Scene._from_pointer(made[0])
+    work = compare if text(info.kind) == "comparison" else run
+    return work(scene, threads=threads, output=output or result, resume=state, progress=progress,
+                accept_version=accept_version, **keys)
 
 
 def _read(path):

@@ -114,8 +114,7 @@ static gg_status check_earlier(const gg_api_run_call *r, gg_error *err)
   free(before);
   if (!there || r->resumes_in_place || r->replaces) return GG_OK;
   return gg_base_fail(err, GG_BAD_FILE,
-                      "%s: holds a run that is not finished: resume it (--resume %s), remove it, or choose another "
-                      "output",
+                      "%s: holds the state of a run: resume it (--resume %s), remove it, or choose another output",
                       path, path);
 }
 
@@ -136,12 +135,28 @@ static gg_status name_temporaries(gg_api_run_call *r, gg_error *err)
 static gg_status begin_checkpoints(gg_api_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
+  if (!o->checkpoint && r->scene.output.state == GG_STATE_KEPT)
+    return gg_base_fail(err, GG_BAD_INPUT, "output.state: kept needs a file for checkpoints");
   if (o->checkpoint) GG_TRY(check_links(r, err));
   if (o->checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (o->resume) GG_TRY(read_resume(r, err));
   r->resumes_in_place = o->checkpoint && r->resume.n_items > 0 && gg_files_checkpoint_is_of(o->resume, o->checkpoint);
   if (o->checkpoint) GG_TRY(check_earlier(r, err));
   return o->checkpoint ? name_temporaries(r, err) : GG_OK;
+}
+
+/* A resumed run has its grains from the checkpoint. */
+static gg_status read_start(gg_api_run_call *r, gg_error *err)
+{
+  if (!gg_files_positions_are_read(&r->scene) || r->options.resume) return GG_OK;
+  if (!r->comparison && r->scene.engine != GG_MD) return GG_OK;
+  if (r->options.workers) return gg_base_fail(err, GG_BAD_INPUT, "start.positions: a file needs a run in one process");
+  gg_model *md = gg_base_array_new(1, sizeof *md, err);
+  gg_status status = md ? gg_scene_model_make(&r->scene, GG_MD, md, err) : GG_FAILED;
+  if (status == GG_OK) status = gg_files_positions_read(&r->scene, md, &r->start, err);
+  r->model.start = &r->start.grains;
+  free(md);
+  return status;
 }
 
 static gg_status begin(gg_api_run_call *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
@@ -166,6 +181,7 @@ static gg_status begin(gg_api_run_call *r, const gg_scene *scene, const gg_run_o
                                     .model = &r->model};
   GG_TRY(gg_api_scene_finish(scene, &r->scene, err));
   GG_TRY(gg_scene_model_make(&r->scene, r->scene.engine, &r->model, err));
+  GG_TRY(read_start(r, err));
   GG_TRY(gg_api_log_name(r, err));
   GG_TRY(gg_api_files_check(r, err));
   GG_TRY(begin_checkpoints(r, err));
@@ -181,6 +197,7 @@ static void end(gg_api_run_call *r)
   gg_api_log_end(r);
   gg_io_file_lock_release(&r->lock);
   gg_base_archive_clear(&r->resume);
+  gg_files_positions_free(&r->start);
   for (int i = 0; i < GG_TEMPORARIES; i++) free(r->temporary[i]);
   gg_base_string_list_clear(&r->warnings);
 }
@@ -233,13 +250,15 @@ static gg_status write_output(gg_api_run_call *r, const gg_comparison *c, gg_err
   return gg_files_result_file_finish_run(&r->file, result, err);
 }
 
-/* The result is in place: remove the checkpoints of this run. */
+/* The result is in place: remove the checkpoints of this run, all but the last one if the scene says so. */
 static void remove_checkpoints(gg_api_run_call *r)
 {
   struct stat about;
   if (!r->options.output || !r->options.checkpoint || !(r->stored || r->resumes_in_place)) return;
+  const bool kept = r->scene.output.state == GG_STATE_KEPT;
   for (int i = 0; i < GG_TEMPORARIES; i++)
-    if (stat(r->temporary[i], &about) == 0 && S_ISREG(about.st_mode)) unlink(r->temporary[i]);
+    if ((!kept || i == GG_TEMPORARY_BEFORE) && stat(r->temporary[i], &about) == 0 && S_ISREG(about.st_mode))
+      unlink(r->temporary[i]);
 }
 
 /* Write the results, commit them, and remove the checkpoints of a finished run. A point of a sweep is also finished if

@@ -8,6 +8,7 @@
 #include "api/api.h"
 #include "files/frame_log.h"
 #include "files/h5/result_file.h"
+#include "files/positions.h"
 #include "run/run.h"
 #include "scene/scene.h"
 
@@ -33,6 +34,7 @@ typedef struct gg_api_run_call {
   gg_run_callbacks callbacks;
   gg_scene scene;      /* completed and checked */
   gg_model model;      /* for the scene's engine; used by the run and for its frames */
+  gg_positions start;  /* start.positions of a file */
   gg_archive resume;   /* empty: a new run */
   gg_result_file file; /* options.output */
   gg_frame_log log;    /* frames of a run that keeps checkpoints */

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "common/extension.h"
 #include "common/rng.h"
+#include "files/positions.h"
 #include "run/default_size.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
@@ -114,8 +115,14 @@ gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *optio
   gg_start_options o;
   GG_COPY_OPTIONS(o, options);
   GG_TRY(gg_api_simulation_prepare(&at_start, o.stop, o.context, &s, err));
-  gg_status status = gg_common_engine_of(s->scene.engine)
-                         ->create(&s->model, s->scene.run.seed, o.stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  gg_positions start = {0};
+  gg_status status = s->scene.engine == GG_MD ? gg_files_positions_read(&s->scene, &s->model, &start, err) : GG_OK;
+  s->model.start = start.r ? &start.grains : NULL;
+  if (status == GG_OK)
+    status = gg_common_engine_of(s->scene.engine)
+                 ->create(&s->model, s->scene.run.seed, o.stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  s->model.start = NULL;
+  gg_files_positions_free(&start);
   if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
   return gg_api_simulation_hand_over(s, status, simulation, err);
 }

@@ -16,7 +16,10 @@ const gg_command gg_cli_commands[] = {
     {"run", "SCENE.yaml", "One engine: the scene's, or the one of --engine",
      "With output.checkpoint_every above 0 in the scene, the run keeps a checkpoint beside the result "
      "(usf.checkpoint.h5 for usf.h5) and removes it at the end. --resume continues from it with bit-identical "
-     "results.\nmpirun -n 4 graingas run SCENE.yaml distributes the replicas over four processes with bit-identical "
+     "results. With output.state: kept the last checkpoint stays, and --extend RESULT continues a finished run to "
+     "other "
+     "stopping criteria, e.g. --set run.relative_error=0.001, with the bits of a run that had them from the "
+     "start.\nmpirun -n 4 graingas run SCENE.yaml distributes the replicas over four processes with bit-identical "
      "results; so does compare.",
      SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME | GG_OPT_ACCEPT, gg_cli_run_main},
     {"theory", "SCENE.yaml", "Theories without simulation",

@@ -63,6 +63,8 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_FORMAT, "format", "svg|png|pdf|gp", AT(format),
      "format of the picture (default: from the output's name, else svg)"},
     {GG_OPT_RESUME, "resume", "FILE", AT(resume), "resume from this checkpoint"},
+    {GG_OPT_RESUME, "extend", "RESULT", AT(extend),
+     "continue this finished run, of output.state: kept, to other stopping criteria; in place of SCENE.yaml"},
     {GG_OPT_ACCEPT, "accept-version", NULL, AT(accept_version),
      "use checkpoints and points of sweeps of another build, whose numbers may differ"},
     {GG_OPT_ALL, "all", NULL, AT(all), "show everything: every quantity, not only the main ones; whole definitions"},
@@ -252,6 +254,25 @@ static int check_words(const gg_command *c, const gg_options *o)
                      c->name);
 }
 
+/* --extend RESULT: scene and state are those of the checkpoint beside the result, or of an interrupted
+ * continuation (--resume). */
+static int take_extended(gg_options *o)
+{
+  if (!o->extend) return GG_CLI_GO_ON;
+  if (o->input)
+    return gg_cli_fail(GG_BAD_INPUT, "--extend %s has the scene of that run: leave out %s", o->extend, o->input);
+  o->state = o->resume ? strdup(o->resume) : gg_cli_path_of_checkpoint(o->extend);
+  if (!o->state) return gg_cli_fail(GG_FAILED, "out of memory");
+  if (!gg_cli_file_exists(o->state))
+    return gg_cli_fail(GG_BAD_FILE,
+                       "%s: has no state to continue from: %s is not there (it stays after a run of a scene "
+                       "with output.state: kept)",
+                       o->extend, o->state);
+  o->input = o->extend, o->resume = o->state;
+  if (!o->output) o->output = o->extend;
+  return GG_CLI_GO_ON;
+}
+
 int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
 {
   struct option known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {{0}};
@@ -259,6 +280,7 @@ int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options 
   o->command_line = gg_cli_command_line_quote("graingas", &o->words, "");
   list_known(c, known);
   int code = take_words(c, known, o);
+  if (code == GG_CLI_GO_ON) code = take_extended(o);
   if (code == GG_CLI_GO_ON) code = check_words(c, o);
   if (code != GG_CLI_GO_ON || !o->input) return code;
   if (strcmp(o->input, "help") == 0 && !gg_cli_file_exists(o->input)) return gg_cli_command_print_help(c), GG_OK;
@@ -269,6 +291,7 @@ void gg_cli_options_clear(gg_options *o)
 {
   free(o->command_line);
   free(o->theories);
+  free(o->state);
   for (int i = 0; i < o->n_overrides; i++) free(o->owned[i]);
   *o = (gg_options){0};
 }
@@ -296,7 +319,8 @@ gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *
 {
   *scene = NULL;
   gg_checkpoint_info about;
-  gg_status status = gg_scene_load(o->input, scene, err);
+  gg_status status = o->extend ? gg_checkpoint_about(o->state, &(gg_checkpoint_info){0}, scene, err)
+                               : gg_scene_load(o->input, scene, err);
   /* A checkpoint has the tables of its scene, whose files may be gone. */
   if (status != GG_OK && o->resume && strstr(err->message, ": cannot be read: ") &&
       gg_checkpoint_about(o->resume, &about, scene, NULL) == GG_OK) {

@@ -53,7 +53,7 @@ typedef struct gg_options {
   const char *input;                /* the argument: a scene or a result; NULL if optional and missing */
   const char *more[GG_MORE_INPUTS]; /* further arguments */
   const char *surplus;              /* first argument too many; NULL: none */
-  const char *output, *resume, *format, *picture, *width, *only;
+  const char *output, *resume, *extend, *format, *picture, *width, *only;
   const char *does;              /* command of a sweep's points; NULL: as in its file */
   const char *over, *show;       /* picture of a sweep: key along x, quantities; NULL: automatic */
   char *theories;                /* separated by commas, owned; NULL: all */
@@ -71,6 +71,7 @@ typedef struct gg_options {
   char *owned[GG_MAX_OVERRIDES];          /* overrides that other options stand for, owned; otherwise NULL */
   int n_vary;
   const char *vary[GG_MAX_OVERRIDES]; /* "key=values" */
+  char *state;                        /* the checkpoint of `extend`, owned; otherwise NULL */
   char *command_line;                 /* for the record */
   gg_command_line words;
 } gg_options;

@@ -19,6 +19,14 @@ char *gg_cli_path_with_suffix(const char *path, const char *suffix)
   return asprintf(&result, "%.*s%s", (int)(ends ? dot - path : (long)strlen(path)), path, suffix) < 0 ? NULL : result;
 }
 
+char *gg_cli_path_of_checkpoint(const char *output)
+{
+  char *path = NULL;
+  size_t length = strlen(output);
+  if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
+  return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
+}
+
 char *gg_cli_options_beside(const gg_options *o, const char *suffix)
 {
   const char *slash = strrchr(o->input, '/');
@@ -35,7 +43,7 @@ char *gg_cli_options_output(const gg_options *o, const char *suffix, gg_error *e
 {
   char *output = o->output ? strdup(o->output) : gg_cli_options_beside(o, suffix);
   if (!output) gg_cli_refuse(err, GG_FAILED, "out of memory");
-  if (!output || !gg_cli_file_is_same(output, o->input)) return output;
+  if (!output || o->extend || !gg_cli_file_is_same(output, o->input)) return output;
   gg_cli_refuse(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);
   free(output);
   return NULL;

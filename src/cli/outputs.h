@@ -16,6 +16,8 @@ bool gg_cli_file_exists(const char *path);
 bool gg_cli_file_is_same(const char *a, const char *b);
 /* Whether the path is a device or a pipe: no file is made there, or beside it. */
 bool gg_cli_file_is_device(const char *path);
+/* usf.h5 -> usf.checkpoint.h5; to be freed. */
+char *gg_cli_path_of_checkpoint(const char *output);
 /* `path` with this suffix in place of its ending, if it has one; to be freed. */
 char *gg_cli_path_with_suffix(const char *path, const char *suffix);
 

@@ -21,12 +21,9 @@ int gg_cli_report_scene(const gg_options *o, gg_status status, const gg_error *e
 /* usf.h5 -> usf.checkpoint.h5; for a device by the scene's name, as without --output. */
 static char *checkpoint_path(const gg_options *o, const char *output, bool comparison)
 {
-  char *path = NULL;
   if (gg_cli_file_is_device(output))
     return gg_cli_options_beside(o, comparison ? ".compare.checkpoint.h5" : ".checkpoint.h5");
-  size_t length = strlen(output);
-  if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
-  return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
+  return gg_cli_path_of_checkpoint(output);
 }
 
 /* File of a comparison's picture; NULL if no picture is drawn, or there is no result file. */
@@ -91,9 +88,10 @@ static void warn_of_replacing(const char *output)
 
 static gg_status choose_files(gg_cli_run_options *r, bool comparison)
 {
-  char every[40] = "0";
+  char every[40] = "0", state[16] = "";
   gg_scene_get(r->scene, "output.checkpoint_every", every, sizeof every, NULL);
-  r->keeps_checkpoints = strtod(every, NULL) > 0;
+  gg_scene_get(r->scene, "output.state", state, sizeof state, NULL);
+  r->keeps_checkpoints = strtod(every, NULL) > 0 || strcmp(state, "kept") == 0;
   r->output = gg_cli_options_output(r->options, comparison ? ".compare.h5" : ".h5", &r->err);
   if (!r->output) return r->err.status;
   r->checkpoint = checkpoint_path(r->options, r->output, comparison);
@@ -124,7 +122,7 @@ int gg_cli_run_begin(gg_cli_run_options *r, const gg_options *o)
   r->run = (gg_run_options){.size = sizeof(gg_run_options),
                             .threads = o->threads,
                             .workers = gg_cli_workers(o->threads),
-                            .input = o->input,
+                            .input = o->extend ? NULL : o->input,
                             .picture = r->picture,
                             .picture_width = r->options->width,
                             .output = r->output,

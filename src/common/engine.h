@@ -50,6 +50,7 @@ typedef struct gg_engine_state {
   uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
   double overfilled;     /* dsmc between walls: share of grains where they fill more space than there is */
   double offset;         /* md, sheared: displacement along x of the image of the box above; else 0 */
+  double turns;          /* edges that it has moved beside */
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
   double time_step; /* dsmc: the present step, that of one sweep over all pairs of species; model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
@@ -66,6 +67,7 @@ typedef struct gg_chunk {
   const double *c[3];                    /* peculiar velocities */
   const double *s[3];                    /* spins; NULL for smooth grains */
   const double *whole_c[3], *whole_s[3]; /* the same with their local mean, where c and s are about that; else NULL */
+  const int32_t *image[3];               /* md: numbers of the image (md/images.h); NULL: not counted */
   const uint8_t *species;                /* NULL for one species */
   const int64_t *id; /* the grain's number, constant through a run; only if positions are requested */
 } gg_chunk;
@@ -100,11 +102,11 @@ typedef void gg_collision_callback(void *context, const gg_collision_record *col
 
 /* Grains from outside, in model units: 3 numbers a grain, in the order of their numbers; NULL: the engine's own start.
  * They are numbers, and there are as many of each species as the model has. */
-typedef struct gg_grain_arrays {
-  const double *r;    /* in the box; NULL where the engine has no positions */
-  const double *c;    /* peculiar velocities */
-  const double *s;    /* spins */
-  const int *species; /* NULL for one species */
+typedef struct gg_grain_arrays { /* gg_model.start */
+  const double *r;               /* in the box; NULL where the engine has no positions */
+  const double *c;               /* peculiar velocities */
+  const double *s;               /* spins */
+  const int *species;            /* NULL for one species */
 } gg_grain_arrays;
 
 typedef struct gg_engine gg_engine;
@@ -137,6 +139,9 @@ typedef struct gg_engine_ops {
   gg_status (*advance)(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err);
   /* Keep these sums over collisions, or not (at creation they are not kept). */
   void (*keep_sums)(gg_engine *engine, bool keep);
+  /* Count from now on the images of the box that grains enter; it changes no bit of the trajectory, and a restored
+   * engine continues. NULL where the engine has no images. */
+  gg_status (*keep_images)(gg_engine *engine, gg_error *err);
   /* Return the sums since the last read, and reset them. */
   void (*take_sums)(gg_engine *engine, gg_collision_sums *sums);
   /* Show every collision between grains to `callback` from now on; NULL: none. The callback costs time; a dsmc engine

@@ -192,3 +192,33 @@ uint64_t gg_common_grains_hash(uint64_t collisions, const gg_grain_arrays *grain
   for (size_t i = 0; i < n; i++) hash = with_word(hash, (uint64_t)grains->species[i]);
   return hash;
 }
+
+gg_status gg_common_positions_fit(const gg_model *m, size_t n, const double edges[9], double unit, double *r,
+                                  int *species, gg_error *err)
+{
+  int64_t count[GG_MAX_SPECIES + 1] = {0};
+  const double *e = edges, *box = m->box;
+  const double lean = fabs(e[1]) + fabs(e[2]) + fabs(e[3]) + fabs(e[5]) + fabs(e[6]) + fabs(e[7]);
+  if (n != (size_t)m->n)
+    return gg_base_fail(err, GG_BAD_INPUT, "has %zu grains, the scene %lld (particles)", n, (long long)m->n);
+  for (int a = 0; a < 3 && e[0] != 0; a++)
+    if (!(fabs(e[4 * a] * unit - box[a]) <= 1e-6 * box[a] && lean * unit <= 1e-9 * box[0]))
+      return gg_base_fail(err, GG_BAD_INPUT,
+                          "its box is %g x %g x %g%s, the scene's %g x %g x %g (phi, particles, aspect)", e[0], e[4],
+                          e[8], lean > 0 ? ", and leans" : "", box[0] / unit, box[1] / unit, box[2] / unit);
+  for (size_t i = 0; i < n; i++) {
+    if (m->n_species == 1) species[i] = 0;
+    count[species[i] >= 0 && species[i] < GG_MAX_SPECIES ? species[i] : GG_MAX_SPECIES]++;
+    for (int a = 0; a < 3; a++) {
+      double *x = &r[3 * i + (size_t)a];
+      *x *= unit;
+      if (!gg_common_surface_is_closed(m, a)) *x -= box[a] * floor(*x / box[a]);
+      if (!isfinite(*x)) return gg_base_fail(err, GG_BAD_INPUT, "the position of grain %zu is infinite", i);
+    }
+  }
+  for (int k = 0; k < m->n_species; k++)
+    if (count[k] != m->n_of[k])
+      return gg_base_fail(err, GG_BAD_INPUT, "has %lld grains of species %d, the scene %lld", (long long)count[k],
+                          k + 1, (long long)m->n_of[k]);
+  return GG_OK;
+}

@@ -36,4 +36,10 @@ bool gg_common_is_same_gas(const gg_model *a, const gg_model *b);
  * old one stays. */
 gg_status gg_common_engine_continue(gg_engine *engine, const gg_model *model, gg_engine **next, gg_error *err);
 
+/* Positions of n grains, whose unit of length is `unit` in that of the model, are brought into the model's unit and,
+ * along periodic edges, into its box. GG_BAD_INPUT if number, species or box (`edges`, of their cell; zeros: unknown)
+ * are others. */
+gg_status gg_common_positions_fit(const gg_model *model, size_t n, const double edges[9], double unit, double *r,
+                                  int *species, gg_error *err);
+
 #endif

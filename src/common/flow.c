@@ -91,7 +91,7 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
                         .title = "Linear response to shear",
                         .doc =
                             "linear response to shear: viscosity at vanishing shear rate of the cooling gas, or with "
-                            "thermostat: gaussian (dsmc) of the heated gas",
+                            "thermostat: gaussian of the heated gas",
                         .state = "the linear response of a cooling or heated gas to shear",
                         .frame = GG_SHEARED_FRAME,
                         .linear_response = true,

@@ -106,6 +106,7 @@ typedef struct gg_model {
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
   double a2_0;         /* fourth cumulant of the velocities that a run starts from */
+  bool lattice;        /* md: a run starts from a face-centred lattice */
   double spin0;        /* mean spin along z that a run starts from, angular velocity; see gg_model_starting_spin */
   double contact_time; /* of the contact-time rule, in units of gg_common_model_contact_unit; 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
@@ -113,9 +114,10 @@ typedef struct gg_model {
   double asked_error;  /* relative, that ends the run; 0: none does. dsmc chooses its step by it */
   bool single;         /* dsmc: velocities kept in single precision */
 
-  const gg_extension *extension; /* borrowed from the scene */
-  const gg_stop *stop;           /* borrowed from the caller of the engine: no physics; NULL: nothing stops it */
-  int threads;                   /* that may share its start, the caller's included: no physics; 0: one */
+  const gg_extension *extension;       /* borrowed from the scene */
+  const gg_stop *stop;                 /* borrowed from the caller of the engine: no physics; NULL: nothing stops it */
+  const struct gg_grain_arrays *start; /* md: grains to start with, likewise borrowed (engine.h); NULL: the engine's */
+  int threads;                         /* that may share its start, the caller's included: no physics; 0: one */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;

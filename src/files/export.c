@@ -11,12 +11,9 @@
 #include "common/engine.h"
 #include "common/species.h"
 #include "files/curve_table.h"
+#include "files/positions.h"
 #include "graingas.h"
 #include "io/checked_json.h"
-
-static const char *const elements[] = {"H", "He", "Li", "Be", "B",  "C",  "N", "O",
-                                       "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S"};
-_Static_assert(sizeof elements / sizeof *elements >= GG_MAX_SPECIES, "an element for each species");
 
 /* Numbers derived from all curves: exponents, coefficients; true if there are any (`out` may be NULL to ask). */
 static void put_numbers(gg_file_writer *out, const double *x, int n, const char *before)
@@ -82,7 +79,7 @@ void gg_files_xyz_frame(gg_file_writer *out, const gg_stored_trajectory *t, cons
     const double *r = f->position + 3 * i, place[3] = {into_cell(r[0], r[1], edges), r[1], r[2]};
     const double *v = f->velocity + 3 * i, m = t->mass[i], radius_mass[2] = {0.5 * t->diameter[i], m};
     const double momentum_mass[4] = {m * v[0], m * v[1], m * v[2], m};
-    gg_io_file_writer_put(out, elements[t->species[i] < GG_MAX_SPECIES ? t->species[i] : 0]);
+    gg_io_file_writer_put(out, gg_files_xyz_element(t->species[i]));
     put_numbers(out, place, 3, " ");
     put_numbers(out, v, 3, " ");
     if (f->spin) put_numbers(out, f->spin + 3 * i, 3, " ");

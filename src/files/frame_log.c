@@ -13,19 +13,19 @@
 #include "base/memory.h"
 #include "io/output_path.h"
 
-enum { POSITIONS = 1, SPINS = 2, SPECIES = 4 };
+enum { POSITIONS = 1, SPINS = 2, SPECIES = 4, IMAGES = 8, ALL = 15 };
 static const char word[8] = "GGFRAME";
 
 typedef struct record { /* header of a frame, in the byte order of the machine */
   char word[8];
   uint64_t bytes, n, holds, step;
-  double time;
+  double time, tilt;
   uint64_t checksum; /* over the checksum of the record before, this header up to here, and the data after it */
 } record;
 
 static uint64_t size_of(uint64_t n, uint64_t holds)
 {
-  uint64_t vectors = 1 + (holds & POSITIONS ? 1 : 0) + (holds & SPINS ? 1 : 0);
+  uint64_t vectors = 1 + (holds & POSITIONS ? 1 : 0) + (holds & SPINS ? 1 : 0) + (holds & IMAGES ? 1 : 0);
   return sizeof(record) + n * (vectors * 3 * sizeof(double) + (holds & SPECIES ? 1 : 0));
 }
 
@@ -137,15 +137,17 @@ static void fill(record *r, const gg_frame *frame, const size_t *order, uint64_t
 {
   double *vectors = put_vectors((double *)(r + 1), frame->position, order, frame->n);
   vectors = put_vectors(vectors, frame->velocity, order, frame->n);
-  uint8_t *species = put_vectors(vectors, frame->spin, order, frame->n);
+  vectors = put_vectors(vectors, frame->spin, order, frame->n);
+  uint8_t *species = put_vectors(vectors, frame->image, order, frame->n);
   for (size_t i = 0; frame->species && i < frame->n; i++) species[i] = frame->species[order[i]];
   r->checksum = checksum_of(r, before);
 }
 
 gg_status gg_files_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error *err)
 {
-  uint64_t holds = (frame->position ? POSITIONS : 0u) | (frame->spin ? SPINS : 0u) | (frame->species ? SPECIES : 0u);
-  record header = {.n = frame->n, .holds = holds, .step = frame->step, .time = frame->time};
+  uint64_t holds = (frame->position ? POSITIONS : 0u) | (frame->spin ? SPINS : 0u) | (frame->species ? SPECIES : 0u) |
+                   (frame->image ? IMAGES : 0u);
+  record header = {.n = frame->n, .holds = holds, .step = frame->step, .time = frame->time, .tilt = frame->tilt};
   header.bytes = size_of(frame->n, holds);
   memcpy(header.word, word, sizeof word);
   size_t *order = gg_measure_frame_order(frame, err);
@@ -182,7 +184,7 @@ static const char *read_next(const gg_frame_log *log, reader *r)
   uint64_t left = log->mark.bytes - r->at.bytes, there = (uint64_t)about.st_size - r->at.bytes;
   /* A crafted mark may claim more bytes than there is memory, or a number of grains whose size in bytes overflows. */
   bool fits = memcmp(header.word, word, sizeof word) == 0 && header.n <= left && header.n <= INT64_MAX / 128 &&
-              header.holds < 8 && header.bytes == size_of(header.n, header.holds) && header.bytes <= left;
+              header.holds <= ALL && header.bytes == size_of(header.n, header.holds) && header.bytes <= left;
   if (!fits) return "damaged";
   if (header.bytes > there) return "missing"; /* before memory is allocated for it */
   if (header.bytes > r->room) {
@@ -201,10 +203,11 @@ static gg_frame frame_of(record *r)
 {
   size_t n = r->n;
   double *vectors = (double *)(r + 1);
-  gg_frame frame = {.time = r->time, .step = r->step, .n = n};
+  gg_frame frame = {.time = r->time, .step = r->step, .n = n, .tilt = r->tilt};
   if (r->holds & POSITIONS) frame.position = vectors, vectors += 3 * n;
   frame.velocity = vectors, vectors += 3 * n;
   if (r->holds & SPINS) frame.spin = vectors, vectors += 3 * n;
+  if (r->holds & IMAGES) frame.image = vectors, vectors += 3 * n;
   if (r->holds & SPECIES) frame.species = (uint8_t *)vectors;
   return frame;
 }

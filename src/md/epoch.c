@@ -6,6 +6,7 @@
 
 #include "md/epoch.h"
 #include "md/grid.h"
+#include "md/images.h"
 #include "md/kicks.h"
 #include "md/md_thermostat.h"
 #include "md/row_motion.h"
@@ -59,7 +60,7 @@ bool gg_md_next_epoch(gg_md *e)
   while (span < 0.5 * wait) span *= 2;              /* skip a long time without events */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;
   measure_mean_free_time(e, span);
-  e->box.offset0 = gg_md_offset(&e->box, span);
+  gg_md_move_images(e, span);
   for (uint32_t i = 0; i < e->n; i++) {
     gg_md_grain *g = &e->grain[i];
     g->r = gg_md_position(e, e->falls, g, span);
@@ -79,7 +80,7 @@ bool gg_md_next_epoch(gg_md *e)
   gg_md_turn_spins(e, span);
   e->k.stop -= span;
   if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY) gg_md_kicks_follow(e, gg_md_follow_centre_of_mass(e));
-  if (e->heat == GG_HEAT_SCALES) {
+  if (e->heat == GG_HEAT_SCALES && !e->model.linear_response) {
     span /= e->k.scale;
     gg_md_thermostat_fold(e);
   }

@@ -185,9 +185,14 @@ static int due(const gg_md *e)
   return first;
 }
 
+double gg_md_compensation_interval(const gg_md *e)
+{
+  return 0.5 / gg_common_model_collision_rate(&e->model, gg_md_temperature(e));
+}
+
 void gg_md_kicks_begin(gg_md *e)
 {
-  e->k.next_kick = INFINITY;
+  e->k.next_kick = gg_md_compensates(e) ? gg_md_compensation_interval(e) : INFINITY;
   if (!gg_md_has_kicks(e)) return;
   for (int s = 0; s < e->model.n_species; s++)
     e->k.kick[s] = (gg_md_kick_progress){.at = 0.5 * e->kicks.schedule[s].interval};

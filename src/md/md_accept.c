@@ -54,10 +54,6 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
     return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs engine: dsmc", gg_flow_of(m->flow)->word);
   if (m->thermostat != GG_NO_THERMOSTAT && !gg_flow_takes(m->flow, m->thermostat))
     return gg_base_fail(err, GG_BAD_INPUT, "thermostat: not in flow: %s with engine: md", gg_flow_of(m->flow)->word);
-  if (m->thermostat != GG_NO_THERMOSTAT && m->linear_response)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "thermostat: %s in flow: %s needs engine: dsmc; md shears the gas that cools",
-                        gg_common_thermostats[m->thermostat].word, gg_flow_of(m->flow)->word);
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
   if (falls && gg_flow_of(m->flow)->falling == GG_NEVER_FALLS)
     return gg_base_fail(err, GG_BAD_INPUT, "gravity: not in flow: %s", gg_flow_of(m->flow)->word);

@@ -51,6 +51,7 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   gg_md *e = gg_base_array_new(1, sizeof *e, err);
   if (!e) return GG_FAILED;
   e->model = *model;
+  e->model.start = NULL; /* it ends with the call */
   for (int a = 0; a < 3; a++) {
     e->box.edge[a] = model->box[a];
     e->box.inverse[a] = 1 / model->box[a];
@@ -98,6 +99,7 @@ void gg_md_free(gg_md *e)
   free(e->spin);
   gg_common_coefficient_tables_free(e->tables);
   free(e->last);
+  free(e->image);
   free(e->id);
   free(e->candidates);
   free(e->kicks.order);

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "md/event_loops.h"
 #include "md/grid.h"
+#include "md/images.h"
 #include "md/kicks.h"
 #include "md/md_allocate.h"
 #include "md/row_motion.h"
@@ -55,6 +56,7 @@ gg_status gg_md_save(const gg_engine *engine, gg_archive *a, gg_error *err)
   GG_TRY(put(a, "md/events", e->node, e->n * sizeof *e->node, err));
   GG_TRY(put(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(put(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
+  if (e->image) GG_TRY(put(a, "md/images", e->image, e->n * sizeof *e->image, err));
   if (e->last) GG_TRY(put(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) GG_TRY(put_lists(e, a, err));
   return GG_OK;
@@ -105,6 +107,8 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(get(a, "md/events", e->node, e->n * sizeof *e->node, err));
   GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
+  if (gg_base_archive_find(a, "md/images")) GG_TRY(gg_md_keep_images(&e->base, err));
+  if (e->image) GG_TRY(get(a, "md/images", e->image, e->n * sizeof *e->image, err));
   if (!e->last && gg_base_archive_find(a, "md/last_collisions"))
     GG_TRY(gg_md_allocate_last(e, err)); /* the stored engine had a callback */
   if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));

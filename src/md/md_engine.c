@@ -7,6 +7,7 @@
 #include "md/epoch.h"
 #include "md/event_loops.h"
 #include "md/grid.h"
+#include "md/images.h"
 #include "md/kicks.h"
 #include "md/md_allocate.h"
 #include "md/md_operations.h"
@@ -34,6 +35,7 @@ static void take_over(gg_md *e, const gg_md *before)
   k->worst_overlap = before->k.worst_overlap;
   k->power = before->k.power;
   k->rng = before->k.rng;
+  k->image_turns = gg_md_turns(before);
 }
 
 static gg_status begin_with(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
@@ -42,6 +44,7 @@ static gg_status begin_with(gg_md *e, uint64_t seed, uint64_t stream, const gg_g
   if (before) e->box.offset0 = gg_md_offset(&before->box, before->k.now);
   GG_TRY(gg_md_start(e, seed, stream, grains, err));
   if (before) take_over(e, before);
+  if (before && before->image) GG_TRY(gg_md_take_images(e, before, err));
   if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY && grains->c && gg_md_has_drift(e))
     gg_md_follow_centre_of_mass(e);
   const double T = gg_md_temperature(e);
@@ -68,6 +71,7 @@ static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stre
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
 {
   gg_md *e;
+  if (model->start) return create_with(model, seed, stream, model->start, NULL, engine, err);
   GG_TRY(gg_md_accepts(model, err));
   if (gg_md_starts_in_equilibrium(model))
     return gg_md_create_in_equilibrium(&gg_md_ops, model, seed, stream, NULL, engine, err);
@@ -112,6 +116,57 @@ static bool run_leg(gg_md *e)
   }
 }
 
+/* Bring every grain to the present time, and begin a new epoch there. */
+static void bring_to_present(gg_md *e)
+{
+  gg_md_counts *k = &e->k;
+  const double now = k->now;
+  gg_md_move_images(e, now);
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_md_grain *g = &e->grain[i];
+    g->r = gg_md_position(e, e->falls, g, now);
+    g->t = 0;
+  }
+  gg_md_turn_spins(e, now);
+  k->epoch_start += now, k->mark -= now;
+  k->now = k->window_time = 0;
+  k->window_collisions = 0;
+  k->epoch_collisions = k->collisions, k->epoch_events = k->events;
+  if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e);
+}
+
+/* Predict all after velocities have changed at the present time, to which all grains were brought. The lists are made
+ * anew, since skins shrink at another rate. It is not stopped midway: the engine would be no state to continue from. */
+static gg_status predict_present(gg_md *e, gg_error *err)
+{
+  const gg_stop *const stop = e->model.stop;
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) gg_md_set_skins(e, e->search.lists.radius);
+  if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e), gg_md_separate_rows(e);
+  e->model.stop = NULL;
+  const gg_status status = gg_md_predict_anew(e, err);
+  e->model.stop = stop;
+  return status;
+}
+
+/* The Gaussian thermostat under shear: see kicks.h. */
+static void compensate(gg_md *e)
+{
+  const double now = e->k.now;
+  bring_to_present(e);
+  gg_md_kicks_move(e, now);
+  const double energy = 1.5 * e->n * gg_md_follow_centre_of_mass(e), lost = e->k.kinetic0 - e->k.kinetic;
+  const double factor = energy > 0 ? sqrt(1 + lost / energy) : 1;
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_md_grain *g = &e->grain[i];
+    const double flow = e->model.shear_rate * (g->r.y - 0.5 * e->box.edge[1]);
+    g->v = (gg_vec){flow + factor * (g->v.x - flow), factor * g->v.y, factor * g->v.z};
+    if (e->last) e->last[i] -= now;
+  }
+  e->k.kinetic = e->k.kinetic0;
+  e->k.next_kick = gg_md_compensation_interval(e);
+  if (predict_present(e, NULL) != GG_OK) e->out_of_memory = true;
+}
+
 /* Run events with kicks in between; each kick ends a leg. k.stop is shifted at the end of an epoch, so the rest of the
  * advance is stored as a difference. */
 static bool run_legs(gg_md *e)
@@ -121,7 +176,10 @@ static bool run_legs(gg_md *e)
     if (!run_leg(e)) return false;
     if (!e->k.collisions_left) return true;
     e->k.now = e->k.next_kick;
-    gg_md_kick(e);
+    if (gg_md_compensates(e))
+      compensate(e);
+    else
+      gg_md_kick(e);
     e->k.beyond_kick -= e->k.next_kick - e->k.now;
   }
   if (e->k.beyond_kick > -INFINITY) e->k.stop = e->k.next_kick + e->k.beyond_kick;
@@ -200,29 +258,11 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .events = e->k.events,
                          .treated = e->k.treated,
                          .offset = gg_md_offset(&e->box, e->k.now),
+                         .turns = gg_md_turns(e),
                          .wall_treated = e->k.wall_treated,
                          .clamped = e->k.clamped,
                          .worst_overlap = e->k.worst_overlap,
                          .others_cpu = gg_md_parallel_cpu(e)};
-}
-
-/* Bring every grain to the present time, and begin a new epoch there. */
-static void bring_to_present(gg_md *e)
-{
-  gg_md_counts *k = &e->k;
-  const double now = k->now;
-  e->box.offset0 = gg_md_offset(&e->box, now);
-  for (uint32_t i = 0; i < e->n; i++) {
-    gg_md_grain *g = &e->grain[i];
-    g->r = gg_md_position(e, e->falls, g, now);
-    g->t = 0;
-  }
-  gg_md_turn_spins(e, now);
-  k->epoch_start += now, k->mark -= now;
-  k->now = k->window_time = 0;
-  k->window_collisions = 0;
-  k->epoch_collisions = k->collisions, k->epoch_events = k->events;
-  if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e);
 }
 
 /* Begin the next sweep of a linear response: multiply the peculiar velocities, keep flow and clock, re-predict all. */
@@ -240,12 +280,10 @@ static gg_status begin_sweep(gg_md *e, int power, gg_error *err)
   return gg_md_begin_at(e, gg_md_temperature(e), err);
 }
 
-/* Laboratory velocities change with the flow. The lists are made anew, since skins shrink at another rate. It is not
- * stopped midway: the engine would be no state to continue from. */
+/* Laboratory velocities change with the flow. */
 static gg_status shear(gg_engine *engine, double rate, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
-  const gg_stop *const stop = e->model.stop;
   const double now = e->k.now, more = rate - e->model.shear_rate;
   if (!gg_model_is_sheared(&e->model)) return gg_base_fail(err, GG_BAD_INPUT, "md: this flow is not sheared");
   bring_to_present(e);
@@ -257,12 +295,7 @@ static gg_status shear(gg_engine *engine, double rate, gg_error *err)
   }
   e->model.shear_rate = rate;
   e->box.image_velocity = rate * e->box.edge[1];
-  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) gg_md_set_skins(e, e->search.lists.radius);
-  if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e), gg_md_separate_rows(e);
-  e->model.stop = NULL;
-  const gg_status status = gg_md_predict_anew(e, err);
-  e->model.stop = stop;
-  return status;
+  return predict_present(e, err);
 }
 
 /* Multiply all times and velocities by exact powers of two. */
@@ -311,6 +344,7 @@ const gg_engine_ops gg_md_ops = {
     .destroy = destroy,
     .advance = advance,
     .keep_sums = keep_sums,
+    .keep_images = gg_md_keep_images,
     .take_sums = take_sums,
     .set_callback = set_callback,
     .threads = threads,

@@ -3,26 +3,16 @@
 #include "md/md_operations.h"
 
 #include "md/epoch.h"
+#include "md/images.h"
 
 enum { SHOWN = 256 }; /* grains of a chunk: they stay in the first cache until they have been sampled */
 
 typedef struct scratch {
   double r[3][SHOWN], c[3][SHOWN], s[3][SHOWN];
+  int32_t image[3][SHOWN];
   uint8_t species[SHOWN];
   int64_t id[SHOWN];
 } scratch;
-
-/* Replace a position by its image in the box. Under shear the peculiar velocity is that of the image. */
-static void into_box(const gg_md *e, gg_vec *r)
-{
-  double layers = gg_floor(r->y * e->box.inverse[1]);
-  if (gg_model_is_sheared(&e->model)) r->x -= layers * gg_md_offset(&e->box, e->k.now);
-  for (int a = 0; a < 3; a++) {
-    if (e->box.inverse[a] == 0) continue; /* no image between walls, or above an open top */
-    double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);
-    *gg_component(r, a) = x < e->box.edge[a] ? x : 0;
-  }
-}
 
 static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, scratch *out)
 {
@@ -30,7 +20,12 @@ static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, 
   gg_vec r = gg_md_position(e, e->falls, g, e->k.now),
          c = gg_scale(e->k.scale, gg_md_velocity(e, e->falls, g, e->k.now));
   c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
-  if (positions) into_box(e, &r);
+  const gg_vec was = r;
+  if (positions) gg_md_wrap(e, &r);
+  if (positions && e->image) {
+    const gg_md_image image = gg_md_image_after(e, e->image[i], was, r);
+    out->image[0][slot] = image.x, out->image[1][slot] = image.y, out->image[2][slot] = image.z;
+  }
   for (int a = 0; a < 3; a++) {
     out->r[a][slot] = gg_along(&r, a);
     out->c[a][slot] = gg_along(&c, a);
@@ -52,6 +47,7 @@ void gg_md_snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *co
       chunk.r[a] = positions ? out.r[a] : NULL;
       chunk.c[a] = out.c[a];
       chunk.s[a] = e->spin ? out.s[a] : NULL;
+      chunk.image[a] = positions && e->image ? out.image[a] : NULL;
     }
     chunk.species = e->model.n_species > 1 ? out.species : NULL;
     chunk.id = positions ? out.id : NULL;

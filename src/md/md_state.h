@@ -26,6 +26,11 @@ typedef struct gg_md_grain {
   uint32_t counter; /* collision counter: changes of velocity so far */
 } __attribute__((aligned(64))) gg_md_grain;
 
+/* Images of the box: a grain has left the box upwards along an axis so many times more often than downwards. */
+typedef struct gg_md_image {
+  int32_t x, y, z;
+} gg_md_image;
+
 /* Skin of a grain, a sphere. The grain may not leave it before its neighbour list is updated. */
 typedef struct gg_md_skin {
   gg_vec centre; /* under shear it moves with the flow: its position at the start of the epoch */
@@ -129,10 +134,11 @@ typedef struct gg_md_counts {
   double mark, outer;              /* at inside time `mark` the outside time since the advance began was `outer` */
   double outer_time;               /* outside time up to the present advance */
   /* The present advance, which may have been stopped. */
-  double asked;                          /* its length, outside */
-  double stop;                           /* its end, or the end of its present leg, in epoch time */
-  double beyond_kick;                    /* rest of it after the next kick; -INFINITY: no kick before its end */
-  uint64_t collisions_left;              /* of it */
+  double asked;             /* its length, outside */
+  double stop;              /* its end, or the end of its present leg, in epoch time */
+  double beyond_kick;       /* rest of it after the next kick; -INFINITY: no kick before its end */
+  uint64_t collisions_left; /* of it */
+  double image_turns;       /* edges by which the image above has moved before the epoch, beside the offset */
   double fractional_shift, common_shift; /* of co-moving rows (row_motion.c), at the start of the epoch */
   int32_t row_shift, image_shift;
   uint32_t keeps_sums;
@@ -149,6 +155,7 @@ struct gg_md {
   gg_vec *spin;                  /* surface velocities, outside of a Gaussian thermostat; NULL: smooth grains */
   gg_coefficient_tables *tables; /* of coefficients that depend on the speed; NULL: none */
   double *last;                  /* times of last collisions, for the contact-time rule or a callback; NULL: neither */
+  gg_md_image *image;            /* of each grain (images.h); NULL: not counted */
   uint32_t *id;                  /* number of each grain in results; in memory grains follow a space-filling curve */
   uint32_t n;
   gg_vec gravity;

@@ -50,9 +50,10 @@ GG_INLINE gg_kicked_loss gg_md_energy_loss(gg_md_resolve_features f, const gg_co
 GG_INLINE void gg_md_return_energy(gg_md *e, double lost)
 {
   gg_md_counts *k = &e->k;
+  k->kinetic -= lost;
+  if (e->model.linear_response) return; /* it is returned at the times of kicks.h */
   k->outer += (k->now - k->mark) / k->scale;
   k->mark = k->now;
-  k->kinetic -= lost;
   k->scale = sqrt(k->kinetic0 / k->kinetic);
   k->stop = k->now + (k->asked - k->outer) * k->scale;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/frame.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -9,6 +10,7 @@ typedef struct filling {
   gg_frame *frame;
   size_t at;
   double spin_unit[GG_MAX_SPECIES]; /* omega over (d/2) omega */
+  double turns;                     /* edges by which the image above has moved beside frame->tilt */
 } filling;
 
 static void fill(void *context, const gg_chunk *chunk)
@@ -20,30 +22,34 @@ static void fill(void *context, const gg_chunk *chunk)
     for (int a = 0; a < 3; a++) {
       if (chunk->r[0]) frame->position[3 * f->at + (size_t)a] = chunk->r[a][i];
       frame->velocity[3 * f->at + (size_t)a] = chunk->c[a][i];
+      if (frame->image) frame->image[3 * f->at + (size_t)a] = chunk->image[a][i];
       if (chunk->s[0]) frame->spin[3 * f->at + (size_t)a] = chunk->s[a][i] * f->spin_unit[species];
     }
+    if (frame->image) frame->image[3 * f->at] += frame->image[3 * f->at + 1] * f->turns;
     if (frame->species) frame->species[f->at] = (uint8_t)species;
     frame->id[f->at] = chunk->id ? chunk->id[i] : (int64_t)f->at;
   }
 }
 
-gg_status gg_measure_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err)
+gg_status gg_measure_frame_take(gg_engine *engine, const gg_model *model, bool images, gg_frame *frame, gg_error *err)
 {
   size_t n = (size_t)model->n;
   const gg_engine_state state = gg_engine_state_of(engine);
-  *frame = (gg_frame){.time = state.time, .step = state.collisions, .n = n};
+  const double tilt = remainder(state.offset, model->box[0]);
+  *frame = (gg_frame){.time = state.time, .step = state.collisions, .n = n, .tilt = model->homogeneous ? 0 : tilt};
   bool positions = !model->homogeneous, spins = model->rule != GG_SMOOTH, species = model->n_species > 1;
   if (positions) frame->position = gg_base_array_new(3 * n, sizeof(double), err);
+  if (images) frame->image = gg_base_array_new(3 * n, sizeof(double), err);
   if (spins) frame->spin = gg_base_array_new(3 * n, sizeof(double), err);
   if (species) frame->species = gg_base_array_new(n, 1, err);
   frame->velocity = gg_base_array_new(3 * n, sizeof(double), err);
   frame->id = gg_base_array_new(n, sizeof(int64_t), err);
-  if (!frame->velocity || !frame->id || (positions && !frame->position) || (spins && !frame->spin) ||
-      (species && !frame->species)) {
+  if (!frame->velocity || !frame->id || (positions && !frame->position) || (images && !frame->image) ||
+      (spins && !frame->spin) || (species && !frame->species)) {
     gg_measure_frame_free(frame);
     return GG_FAILED;
   }
-  filling f = {.frame = frame};
+  filling f = {.frame = frame, .turns = state.turns + round((state.offset - tilt) / model->box[0])};
   for (int i = 0; i < GG_MAX_SPECIES; i++) f.spin_unit[i] = model->boltzmann ? 1 : 2 / model->diameter[i];
   engine->ops->snapshot(engine, positions, fill, &f);
   return GG_OK;
@@ -54,6 +60,7 @@ void gg_measure_frame_free(gg_frame *frame)
   free(frame->position);
   free(frame->velocity);
   free(frame->spin);
+  free(frame->image);
   free(frame->species);
   free(frame->id);
   *frame = (gg_frame){0};

@@ -10,11 +10,14 @@ typedef struct gg_frame {
   double time;
   uint64_t step; /* collisions since creation */
   size_t n;
+  double tilt;                        /* sheared box: offset along x of its nearest image above */
   double *position, *velocity, *spin; /* velocity: peculiar; spin: omega (Boltzmann limit: (d/2) omega) */
-  uint8_t *species;                   /* NULL for one species */
+  double *image; /* whole numbers: x L_x + y tilt, y L_y and z L_z added to the position make it continuous in time */
+  uint8_t *species; /* NULL for one species */
   int64_t *id;
 } gg_frame;
-gg_status gg_measure_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
+/* `images`: the engine counts them. */
+gg_status gg_measure_frame_take(gg_engine *engine, const gg_model *model, bool images, gg_frame *frame, gg_error *err);
 void gg_measure_frame_free(gg_frame *frame);
 /* Places of the grains in the order of their numbers, so that a row is the same grain in every frame; to be freed. */
 size_t *gg_measure_frame_order(const gg_frame *frame, gg_error *err);

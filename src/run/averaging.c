@@ -147,7 +147,7 @@ static bool finished(gg_replicas *all, const gg_window_test *t)
   if (gg_statistics_rule_ends(&all->criteria, all->state.restarts, t->window)) return true;
   bool before = all->state.exact;
   all->state.exact = t->exact;
-  return gg_statistics_rule_is_met(t, before);
+  return gg_statistics_rule_is_met(&all->criteria, t, before);
 }
 
 /* Warm up. Averaging keeps the last sampling interval, so the warm-up is extended until the intervals fit the collision
@@ -182,13 +182,12 @@ gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
     GG_TRY(gg_run_replicas_convergence(all, &c, err));
     gg_run_progress_record_errors(&all->progress, (double)window, &c);
     gg_window_test test = test_of(all, &c, window);
-    if (c.trending && gg_statistics_rule_restarts(&all->criteria, all->state.restarts) &&
-        window >= all->criteria.least) {
+    if (c.trending && gg_statistics_rule_restarts(&all->criteria, all->state.restarts, window)) {
       all->state.restarts++;
       GG_TRY(open_window(all, err));
     } else if (finished(all, &test)) {
       gg_run_replicas_report_progress(all, true); /* with the final errors */
-      return GG_OK;
+      return all->scene.output.state == GG_STATE_KEPT ? gg_run_replicas_store(all, err) : GG_OK;
     } else {
       all->state.goal = all->state.window_at + gg_statistics_rule_next_test(&all->criteria, all->state.restarts, &test);
     }

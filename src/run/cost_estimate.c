@@ -79,13 +79,15 @@ static void plan_file(gg_cost_estimate *f, const gg_scene *scene, const gg_model
 {
   const unsigned there =
       GG_FIELDS_VELOCITY | (m->homogeneous ? 0 : GG_FIELDS_POSITION) | (m->rule == GG_SMOOTH ? 0 : GG_FIELDS_SPIN);
+  const bool images = !m->homogeneous && !m->ensemble && (scene->output.fields & GG_FIELDS_IMAGE);
   const double every = scene->output.trajectory_every, item = scene->output.precision == GG_SINGLE ? 4 : 8;
   const double warmup = (double)gg_run_criteria_of(scene, m).warmup * GG_SAMPLING_INTERVAL;
   const double followed = f->collisions - (scene->output.after == GG_AFTER_WARMUP ? warmup : 0);
   const double rows = fmin(f->collisions / GG_SAMPLING_INTERVAL, GG_SERIES_ROWS);
   f->frames = 1 + (every > 0 ? floor(followed / fmax(every, GG_SAMPLING_INTERVAL)) : 0);
   f->file = 2e5 + 8 * rows * (m->rule == GG_SMOOTH ? 12 : 16) + 25 * (double)m->n +
-            f->frames * (3 * item * __builtin_popcount(there & scene->output.fields) * (double)m->n + 200);
+            f->frames * (3 * item * __builtin_popcount(there & scene->output.fields) * (double)m->n + 200) +
+            (images && every > 0 ? 12 * f->frames * (double)m->n : 0);
 }
 
 gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)

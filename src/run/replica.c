@@ -19,6 +19,12 @@ static bool leaves_out_warmup(const gg_scene *scene)
   return scene->output.after == GG_AFTER_WARMUP && scene->run.warmup != 0;
 }
 
+static gg_status keep_images(gg_replica *r, gg_error *err)
+{
+  r->images = r->trajectory_every > 0 && r->engine->ops->keep_images;
+  return r->images ? r->engine->ops->keep_images(r->engine, err) : GG_OK;
+}
+
 static void sample_row(gg_replica *r, double elapsed)
 {
   gg_measure_sampler_row(&r->sampler, r->engine, elapsed, r->clock.velocity_factor, r->clock.averaging);
@@ -49,6 +55,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
     return status;
   }
   r->engine->ops->keep_sums(r->engine, true);
+  GG_TRY(keep_images(r, err));
   r->clock.interval = GG_SAMPLING_INTERVAL / gg_common_model_collision_rate(model, model->temperature0);
   sample_row(r, 0);
   if (gg_scene_is_followed(scene))
@@ -183,7 +190,7 @@ static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg
   if (r->frames_of_window && !r->clock.window_collisions) return GG_OK; /* no window was opened yet */
   if (!callbacks || !callbacks->frame) return GG_OK;
   gg_frame frame;
-  GG_TRY(gg_measure_frame_take(r->engine, &r->model, &frame, err));
+  GG_TRY(gg_measure_frame_take(r->engine, &r->model, r->images, &frame, err));
   gg_run_replica_date_frame(r, &frame);
   gg_status status = callbacks->frame(callbacks->context, &frame, err);
   gg_measure_frame_free(&frame);
@@ -401,6 +408,7 @@ gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_sc
   if (status == GG_OK) status = gg_run_replica_setup_observables(r, scene, err);
   if (status == GG_OK) status = check_clock(r, err);
   if (status == GG_OK) status = gg_common_engine_of(scene->engine)->restore(&r->model, a, &r->engine, err);
+  if (status == GG_OK) status = keep_images(r, err);
   if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_measure_sampler_restore(&r->sampler, a, err);
   if (status == GG_OK && r->clock.frame_every != r->trajectory_every) {

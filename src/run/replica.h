@@ -14,6 +14,7 @@ typedef struct gg_replica {
   gg_sampler sampler;
   gg_series series;
   double trajectory_every;  /* collisions per grain between frames; 0: none */
+  bool images;              /* the engine counts images of the box, for the frames */
   bool logged;              /* the caller gets every sample */
   bool frames_of_window;    /* none of the warm-up */
   struct gg_replica_clock { /* plain data: saved as bytes */

@@ -239,6 +239,7 @@ static gg_status prepare(gg_replicas *all, const gg_archive *resume, gg_error *e
       all->callbacks && !resume && scene->fixed.contact_time == GG_AUTO ? all->callbacks->model : NULL;
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   GG_TRY(gg_run_start_make(scene, made, &all->stop, &all->model, err));
+  if (all->callbacks && all->callbacks->model) all->model.start = all->callbacks->model->start; /* also of one raised */
   GG_TRY(gg_common_engine_of(scene->engine)->accepts(&all->model, err));
   GG_TRY(check_until(all, err));
   GG_TRY(gg_run_protocol_check(scene, &all->model, err));

@@ -387,7 +387,7 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
     gg_run_default_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   report_warnings(all, &c, result);
   GG_TRY(report_curves(all, &slow, result, err));
-  GG_TRY(gg_measure_frame_take(all->replica[0].engine, &all->model, &result->final, err));
+  GG_TRY(gg_measure_frame_take(all->replica[0].engine, &all->model, all->replica[0].images, &result->final, err));
   gg_run_replica_date_frame(&all->replica[0], &result->final);
   return GG_OK;
 }

@@ -12,9 +12,19 @@
 #include "run/protocol_times.h"
 #include "run/replicas.h"
 #include "run/scheduler.h"
+#include "scene/ensemble_size.h"
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
 #include "theory/near_steady.h"
+
+/* Automatic ensembles and time steps of dsmc follow the requested error. A run that continues keeps those of its start.
+ */
+static bool has_other_numerics(const gg_scene *s)
+{
+  return gg_common_engine_of(s->engine)->ensemble &&
+         gg_scene_ensemble_requested_error(s) != gg_scene_ensemble_size_error(s) &&
+         (s->dsmc.time_step == GG_AUTO || !s->dsmc.particles || gg_flow_is_walled(s->flow));
+}
 
 /* Make a result of the present state of the replicas; it may fall short of the requested errors. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
@@ -28,6 +38,11 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
     return status;
   }
   *out = result;
+  if (has_other_numerics(&all->scene))
+    gg_run_result_warn(result,
+                       "continued to another relative error: the ensemble and the time step are those chosen for "
+                       "%.3g %%",
+                       100 * gg_scene_ensemble_size_error(&all->scene));
   return gg_run_replicas_check_end(all, err);
 }
 
@@ -312,6 +327,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
                                gg_error *err)
 {
   GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
+  if (callbacks && callbacks->model) model[GG_MD].start = callbacks->model->start;
   const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;
   const gg_stop stop = {callbacks ? callbacks->interrupted : NULL, callbacks ? callbacks->context : NULL};
   GG_TRY(compare_theories_at_end(scene, &model[GG_MD], stop.asked ? &stop : NULL, c, err));

@@ -58,7 +58,8 @@ double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg
 
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model)
 {
-  gg_stopping_criteria p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
+  gg_stopping_criteria p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady,
+                            .extends = scene->output.state == GG_STATE_KEPT};
   double slowest = gg_common_model_relaxation(model), gap = gg_common_model_gap_relaxation(model);
   double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
   p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);

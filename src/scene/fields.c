@@ -44,15 +44,25 @@ static const gg_word precisions[] = {
 static const gg_word stored_precisions[] = {{"double", GG_DOUBLE, "relative precision 1e-16"},
                                             {"single", GG_SINGLE, "relative precision 1e-7, half the size"},
                                             {0}};
+static const gg_word kept_states[] = {
+    {"removed", GG_STATE_REMOVED, "checkpoints are removed at the end"},
+    {"kept", GG_STATE_KEPT, "the last one stays beside the result: `graingas run --extend RESULT` continues the run"},
+    {0}};
+static const gg_word placements[] = {{GG_LATTICE, 0, "a face-centred lattice"},
+                                     {".xyz", 0, "extended XYZ, its first frame"},
+                                     {".h5", 0, "H5MD, its last frame"},
+                                     {0}};
 static const gg_word frames_after[] = {
     {"start", GG_AFTER_START, "from the start of the run"},
     {"warmup", GG_AFTER_WARMUP,
      "from where the averaging behind the results begins; trials that a trend ended are left out"},
     {0}};
-static const gg_word stored_fields[] = {{"position", GG_FIELDS_POSITION, "positions, which md has"},
-                                        {"velocity", GG_FIELDS_VELOCITY, "velocities; always stored"},
-                                        {"spin", GG_FIELDS_SPIN, "angular velocities of rough grains"},
-                                        {0}};
+static const gg_word stored_fields[] = {
+    {"position", GG_FIELDS_POSITION, "positions, which md has"},
+    {"velocity", GG_FIELDS_VELOCITY, "velocities; always stored"},
+    {"spin", GG_FIELDS_SPIN, "angular velocities of rough grains"},
+    {"image", GG_FIELDS_IMAGE, "images of the box, for displacements: with output.trajectory_every, in md"},
+    {0}};
 #define WORD(FLAG, word, description) {#word, GG_LAW_##FLAG, description},
 static const gg_word laws[] = {{"constant", GG_LAW_CONSTANT, "e is constant"}, GG_LAWS(WORD){0}};
 #undef WORD
@@ -138,6 +148,11 @@ const gg_field gg_scene_fields[] = {
     {"start.spin", GG_FIELD_NUMBER, AT(start.spin), -LARGE, LARGE, false, AUTO, .unit = "1/time",
      .doc = "initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0",
      .when = GG_BIT(GG_IF_STARTED) | GG_BIT(GG_IF_ROUGH)},
+    {"start.positions", GG_FIELD_FILE, AT(start.positions), .words = placements, .special = "random",
+     .doc =
+         "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, "
+         "without overlaps; its path is relative to the scene's file, and only a start reads it",
+     .when = GG_BIT(GG_IF_MD), .reads = true, .may_change = true},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .by_default = 1,
      .doc = "shape of the box: ratio of its edges x : y : z", .when = GG_BIT(GG_IF_BOXED), .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
@@ -244,6 +259,8 @@ const gg_field gg_scene_fields[] = {
      .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_UNWALLED) | GG_BIT(GG_IF_LOCAL)},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
      .doc = "wall-clock time between checkpoints; 0: none", .may_change = true},
+    {"output.state", GG_FIELD_CHOICE, AT(output.state), .words = kept_states,
+     .doc = "checkpoint at the end of a finished run"},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
      .doc = "interval between stored frames; 0: only the last state", .when = GG_BIT(GG_IF_ONE_ENGINE), .also = "dump",
      .may_change = true},
@@ -517,8 +534,8 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
   case GG_FIELD_FILE:
     snprintf(text, size, "the name of a file that ends in ");
     for (const gg_word *w = f->words; w->name; w++)
-      gg_base_text_append(text, size, "%s%s", w > f->words ? " or " : "", w->name);
-    gg_base_text_append(text, size, ", or none");
+      if (*w->name == '.') gg_base_text_append(text, size, "%s%s", strchr(text, '.') ? " or " : "", w->name);
+    gg_base_text_append(text, size, ", or %s%s", f->reads ? GG_LATTICE " or " : "", f->special);
     return;
   case GG_FIELD_CHANGES:
     snprintf(text, size, "a list of maps {at: TIME, KEY: VALUE}, up to %d changes of " GG_PROTOCOL_KEYS,

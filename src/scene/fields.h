@@ -91,6 +91,7 @@ typedef struct gg_field {
   uint64_t when;       /* sum of GG_BIT(GG_IF_...): unless all of them hold, the key has no effect; 0: it always has */
   const char *also;    /* what others call it, for messages: words separated by blanks */
   const char *older;   /* earlier spelling, which is accepted; NULL: none */
+  bool reads;          /* of file names: a file to read, whose path is relative to the scene's file */
   bool may_change;     /* between the parts of a run that is resumed: it touches neither trajectory nor means */
   int by_speed;    /* of pairs: 1 plus the gg_contact_coefficient that may be a formula or a table; 0: numbers alone */
   bool on_the_way; /* may change during a run (protocol): it touches neither units nor box nor grains */

@@ -268,6 +268,7 @@ static void set_start(gg_model *m, const gg_scene *s)
   gg_common_model_set_start(m, given ? gg_units_temperature(m->unit, s->start.temperature) : GG_AUTO);
   gg_scene_model_set_ratio(s, m);
   m->a2_0 = s->start.a2;
+  m->lattice = strcmp(s->start.positions, GG_LATTICE) == 0;
   if (s->start.spin != GG_AUTO) m->spin0 = s->start.spin * m->unit.time;
 }
 

@@ -74,7 +74,7 @@ static void show(const gg_field *f, const gg_scene *scene, char *text, size_t si
 
 static gg_status reject(const char *key, const char *there, const char *here, gg_error *err)
 {
-  char changeable[256] = "";
+  char changeable[320] = "";
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (f->may_change) gg_base_text_append(changeable, sizeof changeable, "%s%s", *changeable ? ", " : "", f->key);
   return gg_base_fail(err, GG_BAD_INPUT,

@@ -18,7 +18,9 @@
 #include "common/species.h"
 
 typedef enum gg_frames_after { GG_AFTER_START, GG_AFTER_WARMUP } gg_frames_after;
-enum { GG_FIELDS_POSITION = 1, GG_FIELDS_VELOCITY = 2, GG_FIELDS_SPIN = 4, GG_FIELDS_ALL = 7 };
+enum { GG_FIELDS_POSITION = 1, GG_FIELDS_VELOCITY = 2, GG_FIELDS_SPIN = 4, GG_FIELDS_IMAGE = 8, GG_FIELDS_ALL = 15 };
+typedef enum gg_kept_state { GG_STATE_REMOVED, GG_STATE_KEPT } gg_kept_state;
+#define GG_LATTICE "fcc"
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 
 /* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if requested. */
@@ -83,6 +85,7 @@ struct gg_scene {
     double temperature, rotational_temperature; /* or GG_AUTO */
     double a2;                                  /* fourth cumulant of the velocities */
     double spin;                                /* mean angular velocity along z, or GG_AUTO: rolling with the shear */
+    char positions[GG_FILE_NAME];               /* "": random; GG_LATTICE; or a file */
   } start;
   double aspect[3]; /* shape of the box, relative edges */
   struct {          /* by pair of species: gg_pair */
@@ -126,6 +129,7 @@ struct gg_scene {
   struct {
     double checkpoint_every; /* seconds, 0: none */
     double trajectory_every; /* collisions per particle, 0: none */
+    gg_kept_state state;     /* the last checkpoint of a finished run */
     gg_frames_after after;   /* which of these are stored */
     unsigned fields;         /* GG_FIELDS_..., of every frame */
     gg_precision precision;  /* of them in the file */

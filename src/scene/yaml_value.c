@@ -2,6 +2,7 @@
 /* The value of one key from a YAML node, and validation errors: file, line, key, and what is allowed there. */
 #include <errno.h>
 #include <float.h>
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -333,6 +334,20 @@ static gg_status read_errors(const input *in, double *value)
   return GG_OK;
 }
 
+/* The whole path of a file to read: a relative one is relative to the scene's file, for overrides to the current
+ * folder. */
+static gg_status find_file(const input *in, const char *text, char *value)
+{
+  const char *slash = in->r->lines ? strrchr(in->r->name, '/') : NULL;
+  char folder[PATH_MAX], whole[PATH_MAX];
+  const int length = slash ? (int)(slash - in->r->name) + 1 : 1;
+  snprintf(folder, sizeof folder, "%.*s", length, slash ? in->r->name : ".");
+  const bool found = *text != '/' && realpath(folder, whole);
+  if (snprintf(value, GG_FILE_NAME, "%s%s%s", found ? whole : "", found ? "/" : "", text) < GG_FILE_NAME) return GG_OK;
+  *value = '\0';
+  return gg_scene_reject(in->r, in->node, in->key, "a path of more than %d characters", GG_FILE_NAME - 1);
+}
+
 static gg_status read_file_name(const input *in, char *value)
 {
   const char *text = gg_scene_scalar(in->node), *ending = text ? strrchr(text, '.') : NULL;
@@ -340,9 +355,11 @@ static gg_status read_file_name(const input *in, char *value)
   if (text && strcmp(text, in->f->special) == 0) return *value = '\0', GG_OK;
   snprintf(printable, sizeof printable, "%s", text ? text : "");
   gg_base_text_make_printable(printable);
+  if (text && in->f->reads && gg_scene_field_find_word(in->f, text).name && *text != '.')
+    return snprintf(value, GG_FILE_NAME, "%s", text), GG_OK;
   if (!ending || ending == text || !gg_scene_field_find_word(in->f, ending).name || strcmp(printable, text) != 0)
     return reject_value(in);
-  return snprintf(value, GG_FILE_NAME, "%s", text), GG_OK;
+  return in->f->reads ? find_file(in, text, value) : (snprintf(value, GG_FILE_NAME, "%s", text), GG_OK);
 }
 
 /* A special word is not among the numbers. */

@@ -59,7 +59,7 @@ static double last_test(const gg_averaging_forecast *o, const gg_stopping_criter
 {
   while (!gg_statistics_rule_ends(criteria, restarts, window)) {
     gg_window_test t = test_at(o, criteria, window, doubts);
-    if (gg_statistics_rule_is_met(&t, exact)) break;
+    if (gg_statistics_rule_is_met(criteria, &t, exact)) break;
     exact = t.exact;
     window = gg_statistics_rule_next_test(criteria, restarts, &t);
   }
@@ -85,7 +85,7 @@ gg_expected_end gg_statistics_forecast_end(const gg_averaging_forecast *o, const
                                            const gg_averaging_state *s)
 {
   uint64_t restarts = s->restarts, window = s->goal - s->window_at;
-  bool anew = s->averaging && o->trending && gg_statistics_rule_restarts(criteria, restarts);
+  bool anew = s->averaging && o->trending && gg_statistics_rule_restarts(criteria, restarts, window);
   double begins = (double)(anew ? s->goal : criteria->warmup);
   if (s->averaging && !anew) {
     gg_expected_end end = mean_last_test(o, criteria, restarts, s->exact, window, (double)(s->due - s->window_at));

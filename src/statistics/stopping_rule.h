@@ -13,10 +13,11 @@ typedef struct gg_stopping_criteria { /* stopping criteria, chosen before the ru
   double relative_error;        /* 0: none; the smallest where quantities have their own */
   double time_limit;            /* seconds, 0: none */
   bool find_steady;             /* give up windows that show a trend */
+  bool extends; /* the run may continue to other criteria: tests are at samples that no criterion moves */
 } gg_stopping_criteria;
 
-/* True if a window with a trend is given up, after `restarts` earlier ones. */
-bool gg_statistics_rule_restarts(const gg_stopping_criteria *criteria, uint64_t restarts);
+/* True if a window of this length with a trend is given up, after `restarts` earlier ones. */
+bool gg_statistics_rule_restarts(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
 /* True if a window of this length ends the run, whatever its errors. */
 bool gg_statistics_rule_ends(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
 
@@ -32,10 +33,12 @@ typedef struct gg_window_test {
  * and the estimate at its end counts. A sure window is not extended: its tests are few, since each is at the end
  * predicted by the last, and its estimate scatters little. (Simulated with independent blocks, without the error of the
  * error: the mean square of deviations over claimed errors is 1.07 without extension, 1.05 with it, 1.03 for windows of
- * fixed length; with 16 blocks 1.3, 1.16 and 1.15.) */
-bool gg_statistics_rule_is_met(const gg_window_test *test, bool exact_before);
+ * fixed length; with 16 blocks 1.3, 1.16 and 1.15.) A run that may be extended has no memory of earlier tests: its
+ * error has to be as small as after that half. */
+bool gg_statistics_rule_is_met(const gg_stopping_criteria *criteria, const gg_window_test *test, bool exact_before);
 /* Length at which the window is tested next, after that test; NULL: first. It grows by a quarter a time; of one that is
- * sure, to where its error should be a twentieth smaller than requested. */
+ * sure, to where its error should be a twentieth smaller than requested. By a quarter of a run that may be extended: it
+ * then passes the same tests as a run with other criteria, and gives up the same windows. */
 uint64_t gg_statistics_rule_next_test(const gg_stopping_criteria *criteria, uint64_t restarts,
                                       const gg_window_test *last);
 

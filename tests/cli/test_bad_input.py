@@ -206,8 +206,6 @@ def test_page_of_a_release():
 
 
 def test_flow_of_another_engine():
-    refused("thermostat", 2, scene="flow: small_shear\nthermostat: gaussian\nphi: 0.3\n",
-            *("run", "scene.yaml", "--engine", "md"))
     refused("walls.ridges", 2, "run", "scene.yaml", "--engine", "dsmc", scene="{flow: poiseuille, phi: 0.3, walls: {ridges: 1}}\n")
 
 

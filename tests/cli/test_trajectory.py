@@ -228,11 +228,11 @@ def test_another_run_beside_what_is_left():
     check(done.code == 1, done.err)
     for args in ANOTHER, [], ["--output", "scene.h5", "--resume", "other.checkpoint.h5"]:
         done = run("run", "scene.yaml", "--quiet", *args)
-        check(done.code == 3 and "holds a run that is not finished: resume it (--resume scene.checkpoint.h5), remove it, "
+        check(done.code == 3 and "holds the state of a run: resume it (--resume scene.checkpoint.h5), remove it, "
               "or choose another output" in done.err, done.code, done.err)
         check(all(content(name) == was for name, was in before.items()) and done.new == [], done.new)
     os.rename(LEFT, LEFT + ".1")
-    check("holds a run that is not finished" in run("run", "scene.yaml", "--quiet", *ANOTHER).err)
+    check("holds the state of a run" in run("run", "scene.yaml", "--quiet", *ANOTHER).err)
     goes_on(whole)
     check(not [name for name in os.listdir(".") if name.startswith("scene.checkpoint")], os.listdir("."))
 

@@ -19,7 +19,7 @@ enum { N = 7, FRAMES = 5 };
 static const char path[] = "t_log.frames", other[] = "t_other.frames";
 
 typedef struct planted {
-  double position[3 * N], velocity[3 * N], spin[3 * N];
+  double position[3 * N], velocity[3 * N], spin[3 * N], image[3 * N];
   uint8_t species[N];
   int64_t id[N];
 } planted;
@@ -34,10 +34,20 @@ static gg_frame frame_of(planted *p, int k)
     for (int a = 0; a < 3; a++) {
       p->velocity[3 * i + a] = 100 * k + 10 * grain + a;
       p->position[3 * i + a] = -p->velocity[3 * i + a];
+      p->image[3 * i + a] = grain - k;
       p->spin[3 * i + a] = 1 / (1 + p->velocity[3 * i + a]);
     }
   }
-  return (gg_frame){0.1 * k, (uint64_t)k, N, p->position, p->velocity, k % 2 ? p->spin : NULL, p->species, p->id};
+  return (gg_frame){.time = 0.1 * k,
+                    .step = (uint64_t)k,
+                    .n = N,
+                    .tilt = 0.3 * k,
+                    .position = p->position,
+                    .velocity = p->velocity,
+                    .spin = k % 2 ? p->spin : NULL,
+                    .image = k % 3 ? p->image : NULL,
+                    .species = p->species,
+                    .id = p->id};
 }
 
 static gg_status expect(void *context, const gg_frame *f, gg_error *err)
@@ -45,11 +55,13 @@ static gg_status expect(void *context, const gg_frame *f, gg_error *err)
   int k = (*(int *)context)++;
   (void)err;
   assert_true(f->n == N && f->step == (uint64_t)k && f->time == 0.1 * k && !f->id && !f->spin == !(k % 2));
+  assert_true(f->tilt == 0.3 * k && !f->image == !(k % 3));
   for (int i = 0; i < N; i++) {
     assert_int_equal(f->species[i], i % 2);
     for (int a = 0; a < 3; a++) {
       double c = 100 * k + 10 * i + a;
       assert_true(f->velocity[3 * i + a] == c && f->position[3 * i + a] == -c);
+      if (f->image) assert_true(f->image[3 * i + a] == i - k);
       if (f->spin) assert_true(f->spin[3 * i + a] == 1 / (1 + c));
     }
   }
@@ -250,7 +262,7 @@ static void overflowing_sizes_are_rejected(void **state)
     struct {
       char word[8];
       uint64_t bytes, n, holds, step;
-      double time;
+      double time, tilt;
       uint64_t checksum;
     } r = {.bytes = sizeof r + grains[k] * 24, .n = grains[k]};
     memcpy(r.word, "GGFRAME", 8);

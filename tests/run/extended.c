@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "scene/scene_reader.h"
 #include "graingas.h"
+#include "scene/scene_reader.h"
 
 gg_scene *scene_of(const char *yaml)
 {

@@ -29,7 +29,8 @@ static void set_scene(const scene_of *of, gg_comparison *c)
   s.flow = of->flow, s.phi = of->phi, s.n_species = of->species;
   for (int p = 0; p < GG_PAIRS; p++)
     s.collision.e[p] = of->e, s.collision.beta[p] = of->beta, s.collision.mu[p] = of->mu;
-  if (of->species == 2) s.species[0] = (gg_species){0.5, 1, 4, 0.4, 1, 0}, s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+  if (of->species == 2)
+    s.species[0] = (gg_species){0.5, 1, 4, 0.4, 1, 0}, s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
   *c = (gg_comparison){.scene = &s, .by_engine = {&md, &dsmc}};
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &c->model, &err), GG_OK);
   gg_run_rows_make(&c->model, &c->rows);

@@ -50,16 +50,43 @@ static void windows_double_with_each_restart(void **state)
   }
   const gg_window_test once = {.window = 100, .ratio = 0.9, .exact = true},
                        sure = {.window = 100, .ratio = 0.9, .exact = true, .sure = true};
-  assert_false(gg_statistics_rule_is_met(&once, false));
-  assert_true(gg_statistics_rule_is_met(&once, true) && gg_statistics_rule_is_met(&sure, false));
+  assert_false(gg_statistics_rule_is_met(&p, &once, false));
+  assert_true(gg_statistics_rule_is_met(&p, &once, true) && gg_statistics_rule_is_met(&p, &sure, false));
   assert_int_equal(gg_statistics_rule_next_test(&p, 0, &once), 150); /* confirmed by half as much again */
   assert_true(fabs(gg_statistics_rule_margin(&p, 10, 1000) - 1.06) < 1e-12);
   assert_true(gg_statistics_rule_margin(&(gg_stopping_criteria){0}, 10, 1000) == 1);
 }
 
+static void runs_that_may_be_extended_pass_the_same_tests(void **state)
+{
+  (void)state;
+  const gg_stopping_criteria p = {
+      .least = 100, .longest = 50000, .relative_error = 0.01, .find_steady = true, .extends = true};
+  gg_stopping_criteria ends = p;
+  ends.most = 210;
+  uint64_t window = gg_statistics_rule_next_test(&p, 1, NULL);
+  for (int k = 0; k < 20; k++) {
+    const gg_window_test far = {.window = window, .ratio = 9}, near = {window, 0.9, true, true};
+    const uint64_t next = gg_statistics_rule_next_test(&p, 1, &far);
+    assert_int_equal(gg_statistics_rule_next_test(&p, 1, &near), next);
+    assert_int_equal(next, window + window / 4);
+    assert_true(gg_statistics_rule_restarts(&p, 1, window) && !gg_statistics_rule_restarts(&p, 1, window + 1));
+    window = next;
+  }
+  const gg_window_test last = {.window = 200, .ratio = 9}, end = {.window = 210, .ratio = 9};
+  assert_int_equal(gg_statistics_rule_next_test(&ends, 1, &last), 210);
+  assert_true(gg_statistics_rule_ends(&ends, 1, 210) && !gg_statistics_rule_restarts(&ends, 1, 210));
+  assert_int_equal(gg_statistics_rule_next_test(&p, 1, &end), 250); /* as a run without the end at 210 */
+  gg_window_test t = {.window = 200, .ratio = 0.83, .exact = true};
+  assert_false(gg_statistics_rule_is_met(&p, &t, true) || gg_statistics_rule_is_met(&p, &t, false));
+  t.ratio = 0.81;
+  assert_true(gg_statistics_rule_is_met(&p, &t, true) && gg_statistics_rule_is_met(&p, &t, false));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(wait_for_relaxation),
-                                     cmocka_unit_test(windows_double_with_each_restart)};
+                                     cmocka_unit_test(windows_double_with_each_restart),
+                                     cmocka_unit_test(runs_that_may_be_extended_pass_the_same_tests)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

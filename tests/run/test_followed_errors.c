@@ -12,10 +12,10 @@
 #include <string.h>
 
 #include "fake_engine.h"
+#include "graingas.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
 #include "statistics/estimator.h"
-#include "graingas.h"
 
 enum { INTERVALS = 100 };
 #define APART 3.0 /* collisions per grain of an interval */

@@ -36,7 +36,7 @@ static double true_end(double scale, double sure_at)
   uint64_t window = gg_statistics_rule_next_test(&criteria, 0, NULL);
   for (;;) {
     gg_window_test t = test_of(scale, window, sure_at);
-    if (gg_statistics_rule_is_met(&t, exact)) return (double)(criteria.warmup + window);
+    if (gg_statistics_rule_is_met(&criteria, &t, exact)) return (double)(criteria.warmup + window);
     exact = t.exact;
     window = gg_statistics_rule_next_test(&criteria, 0, &t);
   }

@@ -112,7 +112,8 @@ static void equal_spheres_above_freezing_cause_a_warning(void **state)
     if (cases[i].flow == GG_EQUILIBRIUM) s.collision.e[0] = 1;
     if (cases[i].diameter != 1) {
       s.n_species = 2;
-      s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.5, cases[i].diameter, 1, 0.4, 1, 0};
+      s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0},
+      s.species[1] = (gg_species){0.5, cases[i].diameter, 1, 0.4, 1, 0};
       for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = s.collision.e[0], s.collision.beta[p] = s.collision.beta[0];
     }
     assert_int_equal(warns(&s, "above freezing"), cases[i].expected);

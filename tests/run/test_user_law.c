@@ -10,9 +10,9 @@
 #include <cmocka.h>
 
 #include "extended.h"
+#include "graingas.h"
 #include "run/z_scores.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
 
 static double above_one(void *context, double speed, int one, int two)
 {

@@ -74,7 +74,7 @@ static void every_key(void **state)
     if (f->may_change ? status == GG_OK : status == GG_BAD_INPUT && strstr(err.message, f->key)) continue;
     fail_msg("%s: status %d, '%s'", f->key, status, err.message);
   }
-  assert_int_equal(free_to_change, 10); /* four stop rules, six of the output */
+  assert_int_equal(free_to_change, 11); /* positions of the start, four stop rules, six of the output */
 }
 
 static void refused(const gg_scene *before, const gg_scene *now, const char *expected)
@@ -130,7 +130,7 @@ static void both_values(void **state)
   refused(&before, &now, "species.2.mass differs (there 1, here 4)");
   now = before, now.collision.e[gg_pair(0, 1)] = 0.8;
   refused(&before, &now,
-          "collision.e.12 differs (there 0.9, here 0.8); only run.relative_error, run.until, "
+          "collision.e.12 differs (there 0.9, here 0.8); only start.positions, run.relative_error, run.until, "
           "run.collisions, "
           "run.time_limit, output.checkpoint_every, output.trajectory_every, output.after, "
           "output.fields, output.precision, output.log may change");

@@ -12,7 +12,7 @@ struct gg_h5_in;
 
 /* How states are laid out in a checkpoint; to be raised with whatever is stored otherwise, so that a file from before
  * is refused by name. 2: the scene's keys one by one; 3: spins under md's Gaussian thermostat as they are outside. */
-enum { GG_CHECKPOINT_LAYOUT = 5 };
+enum { GG_CHECKPOINT_LAYOUT = 6 };
 
 /* `locked`: the caller holds the lock of this path (io/atomic_file.h). */
 gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,

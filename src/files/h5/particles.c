@@ -72,8 +72,8 @@ static void write_frame_of_reference(gg_h5 *h, bool boxed, const gg_model *model
 static void create_vectors(gg_h5 *h, const gg_h5_particles *p, gg_h5_rows *rows, const char *name)
 {
   const hsize_t row[2] = {p->n, 3};
-  gg_h5_rows_create(h, rows, gg_h5_path(h, GRAINS "/%s/value", name), p->single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE,
-                    2, row);
+  const hid_t type = rows == &p->image ? H5T_NATIVE_INT32 : p->single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE;
+  gg_h5_rows_create(h, rows, gg_h5_path(h, GRAINS "/%s/value", name), type, 2, row);
   rows->type = H5T_NATIVE_DOUBLE;
 }
 
@@ -111,20 +111,11 @@ static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_
   create_vectors(h, p, &p->velocity, "velocity");
   start_vectors(h, p, &p->position, "position", frame->position);
   start_vectors(h, p, &p->spin, "spin", frame->spin);
+  start_vectors(h, p, &p->image, "image", frame->image);
   start_box(h, p, model);
   write_kinds(h, model, frame, order); /* what does not change in time */
   write_units(h, p->boxed, model, frame);
   write_frame_of_reference(h, p->boxed, model);
-}
-
-/* Under shear the image above has slid by the strain times L_y (Lees & Edwards 1972): the second edge leans by as much,
- * counted from the nearest image, so that periodic images of the stored box are those of the simulation. (A gas that
- * cools without shear comes to times beyond all numbers.) */
-static double tilt_at(const gg_scene *scene, const gg_model *model, double time)
-{
-  if (!gg_model_is_sheared(model)) return 0;
-  const double strain = scene ? gg_scene_strain(scene, time) : model->shear_rate * time;
-  return remainder(strain * model->box[1], model->box[0]);
 }
 
 static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const size_t *order, double *sorted,
@@ -141,6 +132,7 @@ static gg_frame stored_part(const gg_h5_particles *p, const gg_frame *frame)
   gg_frame part = *frame;
   if (p->left_out & GG_FIELDS_POSITION) part.position = NULL;
   if (p->left_out & GG_FIELDS_SPIN) part.spin = NULL;
+  if (p->left_out & GG_FIELDS_IMAGE) part.image = NULL;
   return part;
 }
 
@@ -156,24 +148,26 @@ void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model,
   } else {
     p->boxed = whole->position != NULL;
     if (!p->started) start(h, p, model, frame, order);
-    const double tilt = tilt_at(p->scene, model, frame->time);
-    const double edges[9] = {model->box[0], 0, 0, tilt, model->box[1], 0, 0, 0, model->box[2]};
+    /* Under shear the image above moves (Lees & Edwards 1972): the second edge leans towards the nearest one, so that
+     * periodic images of the stored box are those of the simulation. */
+    const double edges[9] = {model->box[0], 0, 0, frame->tilt, model->box[1], 0, 0, 0, model->box[2]};
     gg_h5_rows_append(h, &p->step, &frame->step);
     gg_h5_rows_append(h, &p->time, &frame->time);
     if (p->boxed) gg_h5_rows_append(h, &p->edges, edges);
     append_vectors(h, &p->position, frame->position, order, sorted, p->n);
     append_vectors(h, &p->velocity, frame->velocity, order, sorted, p->n);
     append_vectors(h, &p->spin, frame->spin, order, sorted, p->n);
+    append_vectors(h, &p->image, frame->image, order, sorted, p->n);
     p->last_step = frame->step;
   }
   free(order);
   free(sorted);
 }
 
-enum { ARRAYS = 6 };
+enum { ARRAYS = 7 };
 static gg_h5_rows *array_of(gg_h5_particles *p, int i)
 {
-  gg_h5_rows *const all[ARRAYS] = {&p->step, &p->time, &p->edges, &p->position, &p->velocity, &p->spin};
+  gg_h5_rows *const all[ARRAYS] = {&p->step, &p->time, &p->edges, &p->position, &p->velocity, &p->spin, &p->image};
   return all[i];
 }
 

@@ -8,12 +8,11 @@
 
 typedef struct gg_h5_particles {
   bool started, boxed;
-  bool single;           /* positions, velocities and spins as float; set before the first frame */
-  unsigned left_out;     /* GG_FIELDS_... that are not stored; likewise */
-  const gg_scene *scene; /* whose protocol the images follow; NULL: none */
+  bool single;       /* positions, velocities and spins as float; set before the first frame */
+  unsigned left_out; /* GG_FIELDS_... that are not stored; likewise */
   size_t n;
   uint64_t last_step;
-  gg_h5_rows step, time, edges, position, velocity, spin;
+  gg_h5_rows step, time, edges, position, velocity, spin, image;
 } gg_h5_particles;
 
 /* Store one frame more; the first one lays out the groups. */

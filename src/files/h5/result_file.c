@@ -277,7 +277,6 @@ static gg_status create(gg_result_file *f, bool streaming, gg_error *err)
   }
   w->streaming = streaming;
   w->particles.single = f->scene && f->scene->output.precision == GG_SINGLE;
-  w->particles.scene = f->scene;
   w->particles.left_out = f->scene ? GG_FIELDS_ALL & ~f->scene->output.fields : 0;
   if (streaming)
     gg_h5_create(&w->h, f->file.temporary);
@@ -354,7 +353,6 @@ static void write_last_frame(gg_result_file *f, const gg_result *r)
   gg_result_writer *w = f->now;
   if (r->scene->output.after == GG_AFTER_WARMUP) gg_h5_particles_drop(&w->h, &w->particles, r->window_step);
   bool fresh = !w->particles.started || r->final.step > w->particles.last_step;
-  w->particles.scene = r->scene;
   if (r->final.n && r->final.velocity && fresh) gg_h5_particles_append(&w->h, &w->particles, &r->model, &r->final);
 }
 

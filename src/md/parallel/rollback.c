@@ -169,6 +169,7 @@ static void undo(gg_md_parallel *p, gg_md *e, const gg_md_log *log, gg_md_record
     e->node[who[k]] = was[k].node;
     if (e->spin) e->spin[who[k]] = more[k].spin;
     if (e->last) e->last[who[k]] = more[k].last;
+    if (e->image) e->image[who[k]] = more[k].image;
     if (!moves) continue;
     change_cells(e, who[k], true);
     gg_md_set_layer(p, e, who[k]);

@@ -11,10 +11,11 @@ static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
   gg_md_saved *was = gg_md_append(s, &log->part[GG_MD_LOG_SAVED], sizeof *was);
   was->grain = e->grain[i];
   was->node = e->node[i];
-  if (!e->spin && !e->last) return;
+  if (!e->spin && !e->last && !e->image) return;
   gg_md_saved_more *more = gg_md_append(s, &log->part[GG_MD_LOG_MORE], sizeof *more);
   if (e->spin) more->spin = e->spin[i];
   if (e->last) more->last = e->last[i];
+  if (e->image) more->image = e->image[i];
 }
 
 static void save_list(gg_md_slab *s, gg_md_log *log, uint32_t i)

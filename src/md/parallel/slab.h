@@ -55,6 +55,7 @@ typedef struct gg_md_saved {
 typedef struct gg_md_saved_more {
   gg_vec spin;
   double last;
+  gg_md_image image;
 } gg_md_saved_more;
 
 /* Terms of a collision in the sums: stress xx, yy, zz, xy, yx; loss; overlap. */
@@ -89,7 +90,7 @@ typedef struct gg_md_record {
 enum {
   GG_MD_LOG_RECORDS, /* gg_md_record */
   GG_MD_LOG_SAVED,   /* gg_md_saved */
-  GG_MD_LOG_MORE,    /* gg_md_saved_more, if grains have spins or times of collisions */
+  GG_MD_LOG_MORE,    /* gg_md_saved_more, if grains have any of that */
   GG_MD_LOG_CELLS,   /* gg_md_saved_cell */
   GG_MD_LOG_ADDENDS, /* gg_md_addend */
   GG_MD_LOG_LISTS,   /* gg_md_saved_list */

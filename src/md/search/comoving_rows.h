@@ -202,16 +202,19 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   gg_md_search s = {.candidates = e->candidates};
   gg_md_begin_search(&s, i, gg_md_synchronise(e, i), node->collision, node->partner);
   gg_md_grain *g = &e->grain[i];
+  const gg_vec was = g->r;
   int axis = node->face >> 1, step = node->face & 1 ? 1 : -1;
   gg_md_leave_cell(e, i);
   if (axis == 1) {
     gg_md_window window = gg_md_change_row(e, i, step);
+    if (e->image) gg_md_count_image(e, i, was);
     gg_md_enter_cell(e, i);
     gg_md_scan_window(e, &s, window);
   } else {
     int32_t at = node->cell[axis] + step, n = e->cells.n[axis], side = at < 0 ? -1 : at >= n ? 1 : 0;
     node->cell[axis] = at - side * n;
     *gg_component(&g->r, axis) -= side * e->box.edge[axis];
+    if (e->image && side) gg_md_count_image(e, i, was);
     gg_md_enter_cell(e, i);
     gg_md_scan_window_ahead(e, &s, axis, step);
   }

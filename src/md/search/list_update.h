@@ -177,7 +177,9 @@ GG_INLINE gg_vec gg_md_into_box(const gg_md *e, double now, gg_md_grain *g)
 GG_INLINE void gg_md_new_skin(gg_md *e, uint32_t i)
 {
   gg_md_node *node = &e->node[i];
-  const gg_vec centre = gg_md_into_box(e, e->k.now, gg_md_synchronise(e, i));
+  gg_md_grain *g = gg_md_synchronise(e, i);
+  const gg_vec was = g->r, centre = gg_md_into_box(e, e->k.now, g);
+  if (e->image) gg_md_count_image(e, i, was);
   e->search.lists.skin[i] = (gg_md_skin){centre};
   node->skin_time = e->k.now;
   gg_md_cell_of(&e->cells, centre, node->cell);

@@ -25,12 +25,14 @@ GG_INLINE gg_md_grain *gg_md_synchronise_step(gg_md *e, uint32_t i, gg_md_step s
     r += 0.5 * dt * dt * w;
     v += dt * w;
   }
+  const gg_axes was = r;
   gg_axes wrapped = gg_wrap_axes(r, gg_load_axes(e->box.edge), gg_load_axes(e->box.inverse));
   r = gg_choose_axes(gg_axes_of(1u << step.axis), wrapped, r);
   gg_v8 new = __builtin_shufflevector(r, v, 0, 1, 2, 4, 5, 6, -1, -1);
   new = __builtin_shufflevector(new, old, 0, 1, 2, 3, 4, 5, 14, 15);
   new[6] = e->k.now;
   *record = new;
+  if (e->image) gg_md_count_image(e, i, (gg_vec){was[0], was[1], was[2]});
   return g;
 }
 

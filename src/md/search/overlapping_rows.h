@@ -141,19 +141,19 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
 GG_INLINE gg_md_grain *gg_md_synchronise_in_rows(gg_md *e, uint32_t i, int lane)
 {
   gg_md_grain *g = gg_md_synchronise(e, i);
+  const gg_vec was = g->r;
   if (lane == GG_MD_ALONG_Z) {
     g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
-    return g;
-  }
-  if (lane == GG_MD_ALONG_Y) {
-    double layers = gg_floor(g->r.y * e->box.inverse[1]);
+  } else {
+    double layers = lane == GG_MD_ALONG_Y ? gg_floor(g->r.y * e->box.inverse[1]) : 0;
     if (layers != 0) {
       g->r.y -= layers * e->box.edge[1];
       g->r.x -= layers * gg_md_offset(&e->box, e->k.now);
       g->v.x -= layers * e->box.image_velocity;
     }
+    g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
   }
-  g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
+  if (e->image) gg_md_count_image(e, i, was);
   return g;
 }
 

@@ -219,9 +219,11 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   int side = at < 0 ? -1 : at >= n ? 1 : 0;
   node->cell[axis] = at - side * n;
   if (side) {
+    const gg_vec was = g->r;
     *gg_component(&g->r, axis) -= side * e->box.edge[axis];
+    if (IS_SHEARED && axis == 1) gg_md_cross_sheared(e, g, node, side);
+    if (e->image) gg_md_count_image(e, i, was);
     if (IS_SHEARED && axis == 1) {
-      gg_md_cross_sheared(e, g, node, side);
       gg_md_enter_cell(e, i);
       gg_md_predict(e, i);
       return;

@@ -3,6 +3,7 @@
 #ifndef GG_MD_SEARCH_SEARCH_H
 #define GG_MD_SEARCH_SEARCH_H
 
+#include "md/images.h"
 #include "md/predict.h"
 #include "md/search/features.h"
 

@@ -26,6 +26,7 @@ static double collisions_needed(double phi)
 bool gg_md_starts_in_equilibrium(const gg_model *m)
 {
   const gg_flow_frame frame = gg_flow_of(m->flow)->frame;
+  if (m->lattice || m->start) return false; /* positions are given */
   return frame == GG_CENTRE_OF_MASS || frame == GG_COOLING_FRAME;
 }
 

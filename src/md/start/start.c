@@ -78,14 +78,32 @@ static gg_status place_given(gg_md *e, const gg_grain_arrays *given, gg_md_packi
   return gg_md_place_check(p, e->id, err);
 }
 
-static gg_status place(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter, gg_error *err)
+/* Sites that grains of the same size do not fill are left empty at random. Grains stay on their sites: large ones may
+ * not fit there. */
+static gg_status place_on_lattice(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter, gg_error *err)
+{
+  gg_md_place_lattice(&e->box, e->n, rng, p->r);
+  GG_TRY(gg_md_place_sort(p, NULL, err));
+  distribute_species(e, diameter, rng);
+  for (uint32_t i = 0; i < e->n; i++) e->id[i] = i;
+  GG_TRY(make_cells(e, p, err));
+  const gg_status status = gg_md_place_check(p, e->id, err);
+  return status == GG_OK ? GG_OK : gg_base_error_prefix(err, status, "start.positions: fcc");
+}
+
+static gg_status place_at_random(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter, gg_error *err)
 {
   for (uint32_t i = 0; i < e->n; i++)
     for (int a = 0; a < 3; a++) *gg_component(&p->r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
   GG_TRY(gg_md_poll_stop(e, err));
   GG_TRY(gg_md_place_sort(p, NULL, err));
   distribute_species(e, diameter, rng);
-  GG_TRY(relax(e, p, rng, err));
+  return relax(e, p, rng, err);
+}
+
+static gg_status place(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter, gg_error *err)
+{
+  GG_TRY((e->model.lattice ? place_on_lattice : place_at_random)(e, rng, p, diameter, err));
   for (uint32_t i = 0; i < e->n; i++) {
     e->grain[i].r = p->r[i];
     e->id[i] = i;

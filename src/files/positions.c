@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "files/positions.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "common/engine_grains.h"
+#include "files/h5/result_reader.h"
+#include "scene/scene.h"
+
+static const char *const elements[] = {"H", "He", "Li", "Be", "B",  "C",  "N", "O",
+                                       "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S"};
+_Static_assert(sizeof elements / sizeof *elements >= GG_MAX_SPECIES, "an element for each species");
+
+const char *gg_files_xyz_element(int species)
+{
+  return elements[species < GG_MAX_SPECIES ? species : 0];
+}
+
+bool gg_files_positions_are_read(const gg_scene *s)
+{
+  return *s->start.positions && strcmp(s->start.positions, GG_LATTICE) != 0;
+}
+
+/* Species are numbers from 1, or elements as in exported files. */
+static int species_of(const char *word)
+{
+  int k = atoi(word) - 1;
+  if (k < 0)
+    for (k = 0; k < GG_MAX_SPECIES && strcmp(word, elements[k]) != 0;) k++;
+  return k;
+}
+
+/* First column of a property in "Properties=species:S:1:pos:R:3:...". */
+static int column_of(const char *head, const char *property, int otherwise)
+{
+  char name[32], type;
+  int width, length, column = 0;
+  const char *at = strstr(head, "Properties=");
+  for (at += at ? strlen("Properties=") : 0; at && sscanf(at, "%31[^: ]:%c:%d%n", name, &type, &width, &length) == 3;
+       at += length + 1, column += width) {
+    if (strcmp(name, property) == 0) return column;
+    if (at[length] != ':') break;
+  }
+  return otherwise;
+}
+
+static bool read_row(char *line, int species, int position, gg_positions *to, size_t i)
+{
+  char *rest = NULL, *end = NULL, *word = strtok_r(line, " \t\r\n", &rest);
+  int column = 0;
+  for (; word && column < position + 3; word = strtok_r(NULL, " \t\r\n", &rest), column++) {
+    if (column == species) to->species[i] = species_of(word);
+    if (column < position) continue;
+    to->r[3 * i + (size_t)(column - position)] = strtod(word, &end);
+    if (*end) return false;
+  }
+  return column == position + 3;
+}
+
+/* The first frame. */
+static gg_status read_xyz(const char *path, size_t n, gg_positions *to, double edges[9], gg_error *err)
+{
+  char line[4096] = "";
+  size_t there = 0, i = 0;
+  FILE *in = fopen(path, "r");
+  if (!in) return gg_base_fail(err, GG_BAD_FILE, "cannot be read");
+  bool good = fgets(line, sizeof line, in) && sscanf(line, "%zu", &there) == 1 && fgets(line, sizeof line, in);
+  const int species = column_of(line, "species", 0), position = column_of(line, "pos", 1);
+  char *at = strstr(line, "Lattice=\"");
+  if (at) at += strlen("Lattice=\"");
+  for (int k = 0; at && k < 9; k++) edges[k] = strtod(at, &at);
+  for (; good && i < n && i < there; i++)
+    good = fgets(line, sizeof line, in) && read_row(line, species, position, to, i);
+  fclose(in);
+  if (!good) return gg_base_fail(err, GG_BAD_INPUT, "line %zu is not one of extended XYZ", i ? i + 2 : 1);
+  to->n = there;
+  return GG_OK;
+}
+
+/* The last frame of a trajectory; a result's unit of length is that of its model. */
+static gg_status read_h5md(const char *path, size_t n, gg_positions *to, double edges[9], gg_error *err)
+{
+  gg_stored_trajectory t;
+  gg_frame frame = {0};
+  gg_status status = gg_files_stored_trajectory_open(&t, path, err);
+  if (status == GG_OK && !t.n_frames) status = gg_base_fail(err, GG_BAD_FILE, GG_NO_POSITIONS);
+  if (status == GG_OK) status = gg_files_stored_trajectory_frame(&t, t.n_frames - 1, &frame, edges, err);
+  to->n = t.n;
+  for (size_t i = 0; status == GG_OK && i < n && i < t.n; i++) {
+    memcpy(to->r + 3 * i, frame.position + 3 * i, 3 * sizeof *to->r);
+    to->species[i] = t.species[i];
+  }
+  gg_measure_frame_free(&frame);
+  gg_files_stored_trajectory_close(&t);
+  return status;
+}
+
+gg_status gg_files_positions_read(const gg_scene *scene, const gg_model *model, gg_positions *to, gg_error *err)
+{
+  const char *path = scene->start.positions, *ending = strrchr(path, '.');
+  const bool h5 = ending && strcmp(ending, ".h5") == 0;
+  const size_t n = (size_t)model->n;
+  double edges[9] = {0};
+  *to = (gg_positions){0};
+  if (!gg_files_positions_are_read(scene)) return GG_OK;
+  to->r = gg_base_array_new(3 * n, sizeof *to->r, err);
+  to->species = gg_base_array_new(n, sizeof *to->species, err);
+  if (!to->r || !to->species) return GG_FAILED;
+  to->grains = (gg_grain_arrays){.r = to->r, .species = model->n_species > 1 ? to->species : NULL};
+  gg_status status = (h5 ? read_h5md : read_xyz)(path, n, to, edges, err);
+  if (status == GG_OK)
+    status = gg_common_positions_fit(model, to->n, edges, h5 ? 1 : 1 / model->unit.length, to->r, to->species, err);
+  return status == GG_OK ? GG_OK : gg_base_error_prefix(err, status, "start.positions: %s", path);
+}
+
+void gg_files_positions_free(gg_positions *p)
+{
+  free(p->r);
+  free(p->species);
+  *p = (gg_positions){0};
+}
