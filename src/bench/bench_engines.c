@@ -259,7 +259,7 @@ static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *er
   return GG_OK;
 }
 
-/* What the second way does that the first does not. */
+/* The feature that only the second way has. */
 typedef enum second_way { IN_SINGLE_PRECISION, IN_BLOCKS, ON_THREADS } second_way;
 
 /* Comparison of two variants of a scene, by kind and size. */

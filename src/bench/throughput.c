@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bench/throughput.h"
 
-#include <math.h>
-
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
@@ -47,29 +45,9 @@ static double read_clock(const timed *r)
   return r->wall_time ? gg_base_clock_wall() : cpu_used(r->engine);
 }
 
-static void add_squares(void *context, const gg_chunk *chunk)
-{
-  double *sum = context; /* number of grains, sum of C^2 */
-  sum[0] += (double)chunk->n;
-  for (int a = 0; a < 3; a++)
-    for (size_t i = 0; i < chunk->n; i++) sum[1] += chunk->c[a][i] * chunk->c[a][i];
-}
-
-/* Rescale a cooling gas to its initial temperature by a power of two: otherwise its velocities underflow after some
- * thousand collisions per grain. */
-static gg_status restore_temperature(gg_engine *e, gg_error *err)
-{
-  double sum[2] = {0, 0};
-  e->ops->snapshot(e, false, add_squares, sum);
-  const double T = sum[1] / (3 * sum[0]);
-  if (!(T > 0) || T > 1e-30) return GG_OK;
-  return e->ops->rescale(e, (int)floor(-0.5 * log2(T)), err);
-}
-
 /* Time one stretch, extended until it is long enough. */
 static gg_status time_stretch(timed *r, double seconds, double *rate, gg_error *err)
 {
-  GG_TRY(restore_temperature(r->engine, err));
   double start = read_clock(r), gone, wall = gg_base_clock_wall(), cpu = cpu_used(r->engine);
   uint64_t sum = 0;
   do {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What moves slowly across the gap between walls, over the window of the series of several runs. Times in samples. */
+/* The modes that decay most slowly across the gap between walls, over the window of the series of several runs. Times
+ * in samples. */
 #ifndef GG_SLOW_MODES_H
 #define GG_SLOW_MODES_H
 

@@ -18,7 +18,7 @@ typedef struct gg_averaging_forecast {
   double sure_at;    /* and before it is sure */
 } gg_averaging_forecast;
 
-/* What is known of the means of a window. */
+/* Errors of the means of a window, as far as they are known. */
 typedef struct gg_window_errors {
   double relative;  /* error of the worst, as in the criteria; NaN: not known */
   double untrusted; /* longest correlation time of those that are not trusted, in samples */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a run starts: close to the steady state that theory expects, so that the warm-up is short. Only the start
+/* The start of a run: close to the steady state that theory expects, so that the warm-up is short. Only the start
  * depends on it. */
 #ifndef GG_NEAR_STEADY_H
 #define GG_NEAR_STEADY_H
