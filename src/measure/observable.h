@@ -58,7 +58,9 @@ typedef struct gg_observable_curves {
   size_t (*bins)(const void *self); /* number of bins */
   int every;
   int (*every_of)(const void *self); /* replaces `every` if that depends on the size; NULL: `every` */
-  int parts;   /* above 1: each interval is divided into so many parts with a snapshot each, for correlations in time */
+  int parts; /* above 1: each interval is divided into so many parts with a snapshot each, for correlations in time */
+  /* True if bins are sums of a transient, from a snapshot at its beginning on. NULL: never. */
+  bool (*of_transient)(const void *self);
   bool framed; /* velocities of the scene's frame (cell_frame.h); else about the imposed flow */
   void (*add_snapshot)(void *self, const gg_snapshot *snapshot, double *bins);
   /* Called with every sampling interval, after the snapshot at its end. The data go into the bins with the next
@@ -114,6 +116,9 @@ static inline bool gg_measure_observable_applies(const gg_observable *o, const g
 {
   return !o->refuses || !o->refuses(model);
 }
+/* Parts of an interval of a transient in a gas of temperature T: intervals are long or short, and parts are `parts` to
+ * a collision. */
+int gg_measure_parts_of_transient(const gg_model *model, int parts, double interval, double T);
 /* True if the observable needs the collisions of this model. */
 bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model);
 

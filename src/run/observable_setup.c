@@ -25,7 +25,10 @@ static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width
   if (!c) return GG_OK;
   if (c->parts > r->parts) r->parts = c->parts;
   r->every[k] = c->every_of ? c->every_of(r->self[k]) : c->every;
-  return gg_statistics_bins_init(&r->bins[k], c->bins(r->self[k]), err);
+  GG_TRY(gg_statistics_bins_init(&r->bins[k], c->bins(r->self[k]), err));
+  r->bins[k].whole = c->of_transient && c->of_transient(r->self[k]);
+  r->of_transient |= r->bins[k].whole;
+  return GG_OK;
 }
 
 /* A requested observable, and the gas that it is to measure. */

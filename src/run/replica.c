@@ -93,12 +93,14 @@ static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, ui
 {
   struct gg_replica_clock *c = &r->clock;
   int parts = c->averaging ? r->parts : 1;
+  if (c->averaging && r->of_transient)
+    parts = gg_measure_parts_of_transient(&r->model, parts, c->interval, c->temperature);
   if (!c->part) c->gone = 0, c->happened = collisions(r);
   if (c->averaging) GG_TRY(gg_run_replica_observe_collisions(r, err));
   for (int part = c->part ? (int)c->part : 1; part <= parts; part++) {
     GG_TRY(advance_part(r, part, parts, adapt, err));
     c->gone += c->part_gone;
-    if (c->averaging) gg_run_replica_sample_curves(r, part, c->part_gone);
+    if (c->averaging) gg_run_replica_sample_curves(r, part, parts, c->part_gone);
   }
   *elapsed = c->gone;
   *happened = collisions(r) - c->happened;

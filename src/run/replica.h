@@ -25,6 +25,7 @@ typedef struct gg_replica {
   enum gg_observed { GG_OBSERVED_UNSET, GG_NOT_OBSERVED, GG_OBSERVED } shown; /* state of the collision callback */
   gg_snapshot snapshot;    /* taken only if an observable with curves is due */
   int parts;               /* number of parts of a sampling interval while averaging; a snapshot ends each part */
+  bool of_transient;       /* an observable has sums of a transient */
   struct gg_replica_flow { /* between walls; else NULL */
     gg_slabs window;       /* of all rows since averaging began */
     gg_local_frame frame;  /* of them; before, of the last row */
@@ -89,9 +90,9 @@ gg_status gg_run_unmeasured(const gg_scene *scene, const gg_model *model, void (
 gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
 gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *archive, gg_error *err);
 
-/* sampling.c: a row of the series; after each part of an interval, `part` from 1 to r->parts, what curves need. */
+/* sampling.c: a row of the series; after each part of an interval, `part` from 1 to `parts`, what curves need. */
 void gg_run_replica_sample_row(gg_replica *r, double elapsed);
-void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
+void gg_run_replica_sample_curves(gg_replica *r, int part, int parts, double part_elapsed);
 void gg_run_replica_restart_curves(gg_replica *r);
 /* The model has changed, and the engine is another: curves are of the new gas alone. */
 void gg_run_replica_change_curves(gg_replica *r);

@@ -172,12 +172,12 @@ void gg_run_replica_sample_row(gg_replica *r, double elapsed)
 
 /* Observables of several parts take a snapshot after each of them; the others at the end of every so-many-th interval.
  */
-static bool is_due(const gg_replica *r, int k, int part)
+static bool is_due(const gg_replica *r, int k, bool last)
 {
   const gg_observable *o = r->observable[k];
   if (!o->curves || !gg_measure_observable_applies(o, &r->model)) return false;
   if (gg_measure_observable_wants_collisions(o, &r->model) && r->shown != GG_OBSERVED) return false;
-  return o->curves->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
+  return o->curves->parts > 1 || (last && r->clock.window_samples % (uint64_t)r->every[k] == 0);
 }
 
 static void take_snapshot(gg_replica *r, int part, double part_elapsed)
@@ -195,13 +195,13 @@ static void take_snapshot(gg_replica *r, int part, double part_elapsed)
   gg_measure_local_frame_of_flow(&r->flow->frame, &r->model, &now);
 }
 
-void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
+void gg_run_replica_sample_curves(gg_replica *r, int part, int parts, double part_elapsed)
 {
-  bool any = false, last = part == r->parts;
-  for (int k = 0; k < r->n_observables; k++) any |= is_due(r, k, part);
+  bool any = false, last = part == parts;
+  for (int k = 0; k < r->n_observables; k++) any |= is_due(r, k, last);
   if (any) take_snapshot(r, part, part_elapsed);
   for (int k = 0; k < r->n_observables; k++) {
-    if (!is_due(r, k, part)) continue;
+    if (!is_due(r, k, last)) continue;
     const gg_snapshot *s = r->framed && r->observable[k]->curves->framed ? &r->framed->snapshot : &r->snapshot;
     r->observable[k]->curves->add_snapshot(r->self[k], s, gg_statistics_bins_sample(&r->bins[k]));
     if (last && !in_burst(r, k)) gg_statistics_bins_commit(&r->bins[k]);
@@ -217,6 +217,9 @@ void gg_run_replica_restart_curves(gg_replica *r)
   for (int k = 0; k < r->n_observables; k++) {
     gg_statistics_bins_restart(&r->bins[k]);
     if (r->observable[k]->restart) r->observable[k]->restart(r->self[k]);
+    if (!r->bins[k].whole) continue;
+    take_snapshot(r, 0, 0); /* the beginning of the transient */
+    r->observable[k]->curves->add_snapshot(r->self[k], &r->snapshot, gg_statistics_bins_sample(&r->bins[k]));
   }
 }
 
