@@ -6,6 +6,7 @@
 #include "base/clock.h"
 #include "bench/bench.h"
 #include "bench/throughput.h"
+#include "measure/bursts.h"
 #include "run/replica.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
@@ -43,7 +44,7 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   GG_TRY(gg_run_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
   GG_TRY(gg_run_replica_open_window(&c->replica, err));
-  c->replica.clock.window_samples = gg_run_sampling_bursts_of(&model).regular_from; /* as in a long run */
+  c->replica.clock.window_samples = gg_measure_bursts_of(&model).regular_from; /* as in a long run */
   return GG_OK;
 }
 
@@ -66,7 +67,7 @@ static uint64_t cycle_of(const gg_replica *r)
     if (r->every[k] > cycle) cycle = r->every[k];
     const gg_observable_collisions *c = r->observable[k]->collisions;
     if (c && c->begin_burst && ops->callback_slows && ops->callback_slows(r->engine))
-      return gg_run_sampling_bursts_of(&r->model).apart;
+      return gg_measure_bursts_of(&r->model).apart;
   }
   return (uint64_t)cycle;
 }

@@ -57,7 +57,7 @@ static const char *refuses(const gg_model *m)
   if (gg_measure_two_times_applies(m)) return gg_measure_needs_homogeneity(m);
   if (gg_flow_cools(m->flow) && (!m->steady || gg_model_has_speed(m)))
     return "a gas that cools without a scaled steady state has no stationary velocity correlation; give run.duration";
-  if (!m->steady) return "a gas that heats up has no stationary velocity correlation; give run.duration";
+  if (!m->steady) return "a gas that heats up has no stationary velocity correlation";
   return gg_measure_needs_homogeneity(m);
 }
 

@@ -16,9 +16,9 @@ enum { FINE = 16, LOG = 4, OCTAVES = 10, LAGS = FINE + LOG * OCTAVES };
 #define STEP 0.25
 
 /* Sums over grains at one lag: number, time and collisions since the waiting time, C(t_w)C(t), C(t_w)^2, C(t)^2, and
- * the square of the displacement. After the lags of a waiting time: its time and collisions, once. */
+ * the square of the displacement. After the lags of a waiting time: its time, once. */
 enum { COUNT, TIME, PASSED, CC, BEFORE, NOW, RR, WIDTH };
-enum { OF_WAIT = 3 }; /* number, time, collisions */
+enum { OF_WAIT = 2 }; /* number, time */
 
 struct gg_two_times {
   const gg_model *model;
@@ -135,7 +135,7 @@ static void set_origin(gg_two_times *t, double *bins)
     }
   now->at_time[w] = now->time, now->at[w] = now->collisions;
   double *bin = bins + (w + 1) * of_wait(t->model) - OF_WAIT;
-  bin[0] += 1, bin[1] += now->time, bin[2] += now->collisions;
+  bin[0] += 1, bin[1] += now->time;
 }
 
 /* Sums over the grains of one species, at places from..to. */
@@ -213,8 +213,8 @@ static gg_curve *put(const course *of, const char *what, const char *symbol, boo
   char name[48], panel[48], label[24], tail[8] = "";
   if (of->m->n_species > 1) snprintf(tail, sizeof tail, "_%d", of->species + 1);
   snprintf(name, sizeof name, "%s_%s%.0f%s", what, collisions ? "collisions_" : "from_", waits[of->wait], tail);
-  snprintf(panel, sizeof panel, collisions ? "%s by collisions" : "%s in time", symbol);
-  snprintf(label, sizeof label, "from %.0f%s%s", waits[of->wait], *tail ? ", species " : "", *tail ? tail + 1 : "");
+  snprintf(panel, sizeof panel, collisions ? "%s over collisions" : "%s over time", symbol);
+  snprintf(label, sizeof label, "after %.0f%s%s", waits[of->wait], *tail ? ", species " : "", *tail ? tail + 1 : "");
   gg_curve *c = gg_measure_curve_add(list, of->n, name, panel, label);
   gg_measure_curve_axes(c, collisions ? "collisions per grain" : "t - t_w",
                         collisions ? "1" : gg_measure_curve_unit(of->m, "time"), symbol, "1");
@@ -223,17 +223,43 @@ static gg_curve *put(const course *of, const char *what, const char *symbol, boo
     const double x = mean(of->bin, (int)i, collisions ? PASSED : TIME);
     c->x[i] = last = isnan(x) ? last : x; /* a lag without samples has no value */
   }
-  c->log_x = !collisions;
   return c;
+}
+
+/* First Sonine approximation of one species of smooth grains, over collisions: in units of v_0 a velocity decays at
+ * (1 + e)^2/6 a collision of Maxwellians, friction less half the cooling rate. */
+static bool has_theory(const gg_model *m)
+{
+  return m->n_species == 1 && m->rule == GG_SMOOTH && !gg_model_has_speed(m) && !gg_model_is_injected(m);
+}
+
+static double decay(const gg_model *m)
+{
+  return (1 + m->e[0]) * (1 + m->e[0]) / 6;
+}
+
+static double decayed(double collisions, const double *decay)
+{
+  return exp(-*decay * collisions);
+}
+
+/* Parameters: the decay, and 6 D over the collision rate. */
+static double displaced(double collisions, const double *p)
+{
+  return p[1] * (collisions + expm1(-p[0] * collisions) / p[0]);
 }
 
 static void put_correlation(const course *of, bool collisions, const double *wait, gg_curves *list)
 {
   gg_curve *c = put(of, "autocorrelation", "A(t_w,t)", collisions, list);
+  c->log_x = true;
   for (size_t i = 0; i < c->n; i++)
     c->value[i] = mean(of->bin, (int)i, CC) / sqrt(mean(of->bin, (int)i, BEFORE) * mean(of->bin, (int)i, NOW));
-  gg_measure_curve_put_setting(c, "waiting_time", wait[1] / wait[0], gg_measure_curve_unit(of->m, "time"));
-  gg_measure_curve_put_setting(c, "waiting_collisions", wait[2] / wait[0], "1");
+  const double theory = decay(of->m);
+  if (!collisions)
+    gg_measure_curve_put_setting(c, "waiting_time", wait[1] / wait[0], gg_measure_curve_unit(of->m, "time"));
+  else if (has_theory(of->m))
+    gg_measure_curve_beside(c, "first Sonine", decayed, &theory);
 }
 
 /* D = <Dr^2>/6 over int v_0 dt, v_0 of the present temperature: constant in the scaled state. */
@@ -244,9 +270,14 @@ static void put_displacement(const course *of, bool collisions, gg_curves *list)
   snprintf(unit, sizeof unit, "%.30s^2", gg_measure_curve_unit(of->m, "length"));
   snprintf(c->unit, sizeof c->unit, "%s", unit);
   for (size_t i = 0; i < c->n; i++) c->value[i] = mean(of->bin, (int)i, RR);
+  c->log_x = !collisions;
   if (!collisions) return;
-  const double D = slope(of->bin) / 6 * gg_common_model_collision_rate(of->m, of->m->temperature0);
-  gg_measure_curve_put_number(c, "diffusion_einstein", D, "d v_0");
+  const double T0 = of->m->temperature0, rate = gg_common_model_collision_rate(of->m, T0);
+  gg_measure_curve_put_number(c, "diffusion_einstein", slope(of->bin) / 6 * rate, "d v_0");
+  if (!has_theory(of->m)) return;
+  const double D = T0 / of->m->mass[0] / (decay(of->m) * rate), theory[2] = {decay(of->m), 6 * D / rate};
+  gg_measure_curve_put_setting(c, "diffusion_first_sonine", D, "d v_0");
+  gg_measure_curve_beside(c, "first Sonine", displaced, theory);
 }
 
 void gg_measure_two_times_curves(const gg_model *m, const double *bins, gg_curves *list)

@@ -98,12 +98,7 @@ void gg_run_replica_restart_curves(gg_replica *r);
 void gg_run_replica_change_curves(gg_replica *r);
 
 /* sampling.c, before each interval of the window: engines report collisions to the observables that need them, always
- * or in bursts (see there). Numbers of samples: length of a burst; first: period of the first bursts; apart: period
- * from sample `regular_from` of the window on. */
-typedef struct gg_sampling_bursts {
-  uint64_t length, first, apart, regular_from;
-} gg_sampling_bursts;
-gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *model);
+ * or in bursts (measure/bursts.h). */
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
 
 double gg_run_replica_collisions_per_grain(const gg_replica *r);

@@ -3,13 +3,9 @@
  * made of whole snapshots when an observable is due. */
 #include <math.h>
 
+#include "measure/bursts.h"
 #include "measure/wall_modes.h"
 #include "run/replica.h"
-
-/* Engines report collisions always, or in bursts: dsmc is some thirty times slower meanwhile, so that bursts of one
- * sample in a hundred add a third to the time. Errors need sixteen bursts however short the run is. So bursts are close
- * together at first, then further and further apart. Their samples depend on the window alone: a resumed run has the
- * same bursts. */
 
 static void add_collision(void *context, const gg_collision_record *collision)
 {
@@ -33,28 +29,6 @@ static bool need_collisions(const gg_replica *r, bool *in_bursts)
   return any;
 }
 
-/* A burst lasts for 24 collisions of a grain of the slowest species. Only flights that begin and end within the burst
- * are observed whole; with few collisions per burst only short flights would be. A species that collides more than
- * MOST_LONGER times more seldom than the average has no observed flights, instead of short ones only. */
-enum { BURST = 12, BURSTS_ALIKE = 16, APART_FIRST = 32, GROWTH = 32, MOST_LONGER = 32 };
-gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *m)
-{
-  double slowest = INFINITY;
-  for (int i = 0; i < m->n_species; i++) slowest = fmin(slowest, gg_common_model_species_rate(m, i, 1));
-  double longer = fmin(ceil(gg_common_model_collision_rate(m, 1) / slowest * (1 - 1e-9)), MOST_LONGER);
-  uint64_t length = BURST * (uint64_t)fmax(longer, 1), first = 2 * length > APART_FIRST ? 2 * length : APART_FIRST;
-  return (gg_sampling_bursts){length, first, GROWTH * first, BURSTS_ALIKE * (GROWTH - 1) * first};
-}
-
-/* Samples since the last burst began: sixteen bursts follow each other at the least distance, as many at twice it,
- * and so on up to the largest. */
-static uint64_t since_burst(const gg_sampling_bursts *e, uint64_t sample)
-{
-  uint64_t apart = e->first;
-  for (; apart < e->apart && sample >= BURSTS_ALIKE * apart; apart *= 2) sample -= BURSTS_ALIKE * apart;
-  return sample % apart;
-}
-
 static bool has_bursts(const gg_observable *o)
 {
   return o->collisions && o->collisions->begin_burst;
@@ -70,8 +44,8 @@ gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err)
 {
   bool in_bursts;
   if (!need_collisions(r, &in_bursts)) return GG_OK;
-  const gg_sampling_bursts bursts = gg_run_sampling_bursts_of(&r->model);
-  const uint64_t at = since_burst(&bursts, r->clock.window_samples);
+  const gg_bursts bursts = gg_measure_bursts_of(&r->model);
+  const uint64_t at = gg_measure_since_burst(&bursts, r->clock.window_samples);
   const enum gg_observed wanted = !in_bursts || at < bursts.length ? GG_OBSERVED : GG_NOT_OBSERVED;
   const bool begins = in_bursts && at == 0 && !r->clock.part; /* part: the burst of a resumed interval has begun */
   if (begins) begin_burst(r);
@@ -85,9 +59,9 @@ gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err)
 static bool in_burst(const gg_replica *r, int k)
 {
   bool in_bursts;
-  const gg_sampling_bursts bursts = gg_run_sampling_bursts_of(&r->model);
+  const gg_bursts bursts = gg_measure_bursts_of(&r->model);
   return has_bursts(r->observable[k]) && need_collisions(r, &in_bursts) && in_bursts &&
-         since_burst(&bursts, r->clock.window_samples) < bursts.length - 1;
+         gg_measure_since_burst(&bursts, r->clock.window_samples) < bursts.length - 1;
 }
 
 static void add_chunk(void *context, const gg_chunk *chunk)
