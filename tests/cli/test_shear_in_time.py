@@ -116,6 +116,36 @@ def test_slow_oscillation():
     check(3 < first / second < 5 and 3 < second / third < 5 and third < 0.003 * loss[-1], loss)
 
 
+def test_frequency_and_amplitude_in_a_bath():
+    """A gas that a bath keeps warm has both apart. Slow and small: G''/omega is the viscosity of steady shear at the same
+    small rate, and there is no third harmonic. Fast: G' tends to a constant, while G'' grows by collisions alone. Larger
+    rates heat the gas: both moduli grow. Monte Carlo has the moduli of the closure."""
+    scene = """{flow: usf, engine: dsmc, phi: 0.2, collision: {e: 0.8}, thermostat: bath, bath: {drag: 0.2, temperature: 1},
+        start: {temperature: %g}, shear_rate: "%g*sin(%g*t)", shear_period: %.17g, shear_steps: 40,
+        dsmc: {particles: %d}, run: {duration: %.17g, replicas: 4}}"""
+
+    def moduli(rate, omega, periods, grains, T=1):
+        period = 2 * np.pi / omega
+        done = run("run", "scene.yaml", "--quiet", "--output", "f.h5",
+                   scene=scene % (T, rate, omega, period, grains, periods * period))
+        check(done.code == 0, done.err)
+        measured = [np.array(number("f.h5", "stress_over_strain", name)) * rate ** 2 for name in ("storage_modulus", "loss_modulus")]
+        closure = [number("f.h5", "stress_over_strain", name + "_of_closure")[0] * rate ** 2 for name in (
+            "storage_modulus", "loss_modulus")]
+        return measured, closure, number("f.h5", "stress_over_strain", "third_harmonic_of_closure")[0]
+    steady = run("theory", "scene.yaml", "--json", "--quiet", "--theory", "gaussian_closure", scene="""{flow: usf, phi: 0.2,
+        collision: {e: 0.8}, thermostat: bath, bath: {drag: 0.2, temperature: 1}, shear_rate: 0.1}""")
+    viscosity = 0.1 * json.loads(steady.out)["theory"]["gaussian_closure"]["shear_viscosity"]["mean"]
+    _, (storage, loss), third = moduli(0.1, 0.02, 2, 100, 0.5)
+    check(abs(loss / 0.02 / viscosity - 1) < 0.01 and 0 < storage < 0.06 * loss and third < 0.005, storage, loss, viscosity, third)
+    for rate, omega in (1, 4), (6, 4):
+        measured, closure, _ = moduli(rate, omega, 6, 4000)
+        for (value, error), theory in zip(measured, closure):
+            check(abs(value - theory) < 4 * error + 0.03 * theory and error < 0.04 * theory, rate, omega, value, error, theory)
+    fast = [moduli(1, omega, 4, 100, 0.55)[1] for omega in (32, 64)]
+    check(abs(fast[1][0] / fast[0][0] - 1) < 0.1 and 1.7 < fast[1][1] / fast[0][1] < 2, fast)
+
+
 def test_small_oscillation():
     """The limit of linear response: G'' over the frequency is Enskog's viscosity of elastic grains. Both engines."""
     scene = """{flow: usf, phi: 0.2, particles: 500, collision: {e: 1}, start: {temperature: 30}, shear_rate: "sin(t)",
