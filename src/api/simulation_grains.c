@@ -7,9 +7,9 @@
 
 #include "api/simulation.h"
 #include "base/memory.h"
+#include "common/engine_grains.h"
 #include "common/extension.h"
 #include "common/rng.h"
-#include "run/engine_grains.h"
 #include "scene/fields.h"
 #include "scene/scene_reader.h"
 
@@ -103,7 +103,7 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
     return gg_base_fail(err, GG_BAD_INPUT,
                         "grains of several species need positions: the start would part the species");
   gg_engine_grains a = {0};
-  gg_status status = gg_run_engine_grains_make(&a, n, err);
+  gg_status status = gg_common_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
     take(m, grains, 1, &a);
     a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
@@ -112,7 +112,7 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
                                  .species = a.species};
     status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
   }
-  gg_run_engine_grains_clear(&a);
+  gg_common_engine_grains_clear(&a);
   return status;
 }
 
@@ -150,13 +150,13 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
   gg_engine *engine = NULL;
   gg_engine_grains a = {0};
   atomic_store(&s->stopped, false);
-  gg_status status = gg_run_engine_grains_make(&a, n, err);
+  gg_status status = gg_common_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
-    gg_run_engine_grains_read(s->engine, model, &a);
+    gg_common_engine_grains_read(s->engine, model, &a);
     if (grains) take(model, grains, gg_api_simulation_unit(s), &a);
     status = ops->create_with(model, 0, 0, &a.grains, s->engine, &engine, err);
   }
-  gg_run_engine_grains_clear(&a);
+  gg_common_engine_grains_clear(&a);
   status = gg_base_callback_settle(status, err);
   if (status != GG_OK) {
     if (engine) ops->destroy(engine);
@@ -212,7 +212,7 @@ static bool may_change(const char *key)
 
 static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, gg_error *err)
 {
-  if (!gg_run_is_same_gas(&s->model, &next->model))
+  if (!gg_common_is_same_gas(&s->model, &next->model))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': this value needs other grains, another box or other units",
                         key);
   next->model.stop = &s->stop;

@@ -15,19 +15,48 @@ double gg_api_simulation_unit(const gg_simulation *s)
 static gg_moments sum_up(const gg_simulation *s)
 {
   gg_moments m = {.model = &s->model};
-  s->engine->ops->snapshot(s->engine, false, gg_api_moments_add, &m);
+  s->engine->ops->snapshot(s->engine, false, gg_measure_moments_add, &m);
   return m;
 }
 
 double gg_api_simulation_temperature(const gg_simulation *s)
 {
   const gg_moments m = sum_up(s);
-  return gg_api_moments_temperature(&m);
+  return gg_measure_moments_temperature(&m);
 }
 
 double gg_api_simulation_strain(const gg_simulation *s)
 {
   return s->strained.strain + s->model.shear_rate * (s->clock.time - s->strained.until);
+}
+
+void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state *state)
+{
+  const gg_model *model = m->model;
+  const double n = (double)model->n, stress = model->density * model->stress_unit * unit * unit / n;
+  state->grains = (size_t)model->n;
+  state->collisions_per_grain = 2 * (double)state->collisions / n;
+  state->temperature = gg_measure_moments_temperature(m) * unit * unit;
+  state->rotational_temperature = gg_measure_moments_rotational_temperature(m) * unit * unit;
+  for (int a = 0; a < 3; a++) state->periodic[a] = !gg_common_surface_is_closed(model, a);
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) state->kinetic_stress[a][b] = stress * m->cc[a][b];
+}
+
+gg_status gg_api_moments_species(const gg_moments *m, int species, double unit, gg_species_state *state, gg_error *err)
+{
+  const gg_model *model = m->model;
+  if (species < 0 || species >= model->n_species)
+    return gg_base_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
+                        model->n_species);
+  const double per = unit * unit / (3 * (double)model->n_of[species]);
+  *state = (gg_species_state){.grains = (size_t)model->n_of[species],
+                              .diameter = model->diameter[species],
+                              .mass = model->mass[species],
+                              .inertia = model->inertia[species],
+                              .temperature = m->energy[species] * per,
+                              .rotational_temperature = gg_measure_moments_rotation(m, species) * per};
+  return GG_OK;
 }
 
 int gg_simulation_species(const gg_simulation *simulation)

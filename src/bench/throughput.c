@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
+#include "theory/near_steady.h"
 
 enum { MOST_REPEATS = 32 };
 
@@ -95,7 +96,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   GG_TRY(gg_scene_model_make(scene, scene->engine, &model, err));
   const gg_engine_ops *ops = gg_common_engine_of(scene->engine);
   GG_TRY(ops->accepts(&model, err));
-  GG_TRY(gg_run_start_near_steady(&model, err));
+  GG_TRY(gg_theory_start_near_steady(&model, err));
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
   r->wall_time = c->wall_time;
   ops = r->engine->ops;

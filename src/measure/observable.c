@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/observable.h"
 
-#include <math.h>
-
 #define PLUG_IN(FLAG, word, description) &gg_measure_##word,
 const gg_observable *const gg_measure_observables[] = {GG_OBSERVABLES(PLUG_IN) NULL};
 _Static_assert(GG_N_OBSERVABLES <= 32, "a bit of `measure` for each");
@@ -19,10 +17,4 @@ bool gg_measure_derived_find(const gg_derived *table, gg_quantity q, gg_function
   for (const gg_derived *d = table; d && d->quantity != GG_MOST_QUANTITIES; d++)
     if (d->quantity == family) return *f = (gg_function){d->of, d->each, (int)(q - family)}, true;
   return false;
-}
-
-int gg_measure_parts_of_transient(const gg_model *m, int parts, double interval, double T)
-{
-  enum { MOST = 1024 };
-  return (int)fmin(fmax(ceil(parts * interval * gg_common_model_collision_rate(m, T)), 1), MOST);
 }

@@ -6,7 +6,7 @@
  *
  * An observable borrows the model of its gas. In a transient run the scene's `protocol` changes that model in place,
  * between two samples: coefficients of collisions, bath, thermostat, shear rate, and the values that follow from
- * them (gg_run_is_same_gas: grains, box and units stay). Bins are then reset, and `restart` is called. So an
+ * them (gg_common_is_same_gas: grains, box and units stay). Bins are then reset, and `restart` is called. So an
  * observable keeps no copy of members that may change, except for values that it derives in `restart`. */
 #ifndef GG_OBSERVABLE_H
 #define GG_OBSERVABLE_H
@@ -116,9 +116,6 @@ static inline bool gg_measure_observable_applies(const gg_observable *o, const g
 {
   return !o->refuses || !o->refuses(model);
 }
-/* Parts of an interval of a transient in a gas of temperature T: intervals are long or short, and parts are `parts` to
- * a collision. */
-int gg_measure_parts_of_transient(const gg_model *model, int parts, double interval, double T);
 /* True if the observable needs the collisions of this model. */
 bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model);
 

@@ -92,11 +92,11 @@ static gg_window_test test_at(const gg_progress_estimate *o, const gg_stopping_c
 static double last_test(const gg_progress_estimate *o, const gg_stopping_criteria *criteria, uint64_t restarts,
                         bool exact, uint64_t window, double doubts)
 {
-  while (!gg_run_criteria_end(criteria, restarts, window)) {
+  while (!gg_statistics_rule_ends(criteria, restarts, window)) {
     gg_window_test t = test_at(o, criteria, window, doubts);
-    if (gg_run_criteria_are_met(&t, exact)) break;
+    if (gg_statistics_rule_is_met(&t, exact)) break;
     exact = t.exact;
-    window = gg_run_criteria_next_test(criteria, restarts, &t);
+    window = gg_statistics_rule_next_test(criteria, restarts, &t);
   }
   return (double)window;
 }
@@ -120,13 +120,13 @@ gg_expected_end gg_run_progress_end(const gg_progress_estimate *o, const gg_stop
                                     const struct gg_replicas_state *s)
 {
   uint64_t restarts = s->restarts, window = s->goal - s->window_at;
-  bool anew = s->averaging && o->trending && gg_run_criteria_restart(criteria, restarts);
+  bool anew = s->averaging && o->trending && gg_statistics_rule_restarts(criteria, restarts);
   double begins = (double)(anew ? s->goal : criteria->warmup);
   if (s->averaging && !anew) {
     gg_expected_end end = mean_last_test(o, criteria, restarts, s->exact, window, (double)(s->due - s->window_at));
     return (gg_expected_end){(double)s->due + end.at, end.known};
   }
-  window = gg_run_criteria_next_test(criteria, restarts + anew, NULL);
+  window = gg_statistics_rule_next_test(criteria, restarts + anew, NULL);
   gg_expected_end end = mean_last_test(o, criteria, restarts + anew, false, window, 0);
   return (gg_expected_end){begins + end.at, end.known && !anew};
 }
@@ -185,7 +185,7 @@ static double usual_end(const gg_replicas *all)
 static double time_left(const gg_replicas *all, double due, gg_expected_end end)
 {
   double left = (end.at - due) * gg_run_progress_pace(&all->progress);
-  bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
+  bool alike = all->state.averaging || all->replica[0].sampler.n_observables <= 1;
   return isfinite(left) && end.known && alike ? left : NAN;
 }
 

@@ -41,7 +41,7 @@ static gg_status parts_make(const gg_replicas *all, parts *p, gg_error *err)
 static void gather(const gg_replicas *all, int mode, const parts *p)
 {
   for (int r = 0; r < all->n; r++)
-    gg_statistics_parts(&all->replica[r].series, all->replica[r].wall_modes_at + (size_t)mode, p->each, p->rows,
+    gg_statistics_parts(&all->replica[r].series, all->replica[r].sampler.wall_modes_at + (size_t)mode, p->each, p->rows,
                         p->y + (size_t)r * p->each);
 }
 

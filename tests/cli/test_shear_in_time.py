@@ -167,10 +167,18 @@ def written(path):
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
 
 
+OSCILLATES = "temperature_in_time", "P_xy_in_time", "spin_z_in_time", "stress_over_strain"
+AGES = "autocorrelation_from_0", "autocorrelation_collisions_5", "displacement_from_5", "displacement_collisions_0"
+
+
 def test_an_interrupted_run_resumes_to_the_same_bits():
-    for engine in "md", "dsmc":
-        scene = (OSCILLATION % (5, 5)).replace("engine: dsmc", "engine: " + engine).replace("{e: 0.8}", "{e: 0.8, beta: 0.3}")
-        scene += "shear_steps: 40\nparticles: 400\nrun: {duration: 20, replicas: 2}\noutput: {checkpoint_every: 0.02}\n"
+    """Oscillation, and a cooling gas with functions of two times: its intervals have many parts, in which it is stopped."""
+    oscillates = (OSCILLATION % (5, 5)).replace("{e: 0.8}", "{e: 0.8, beta: 0.3}") + "shear_steps: 40\nrun: {duration: 20, replicas: 2}\n"
+    cools = """{flow: hcs, engine: dsmc, phi: 0.1, collision: {e: 0.8}, measure: [rheology, diffusion],
+        dsmc: {particles: 5000}, run: {duration: 300, replicas: 2}, """
+    for gas, engine, names in [(oscillates, engine, OSCILLATES) for engine in ("md", "dsmc")] + [(cools, e, AGES) for e in ("md", "dsmc")]:
+        scene = gas.replace("engine: dsmc", "engine: " + engine)
+        scene += "particles: 400, output: {checkpoint_every: 0.02}}\n" if gas is cools else "particles: 400\noutput: {checkpoint_every: 0.02}\n"
         for left in glob.glob("cut.*"):
             os.remove(left)
         check(run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=scene).code == 0, engine)
@@ -190,7 +198,7 @@ def test_an_interrupted_run_resumes_to_the_same_bits():
             check(process.returncode == 130, process.returncode, err)
             cuts += 1
         check(cuts > 0 and process.returncode == 0, cuts, err)
-        for name in "temperature_in_time", "P_xy_in_time", "spin_z_in_time", "stress_over_strain":
+        for name in names:
             one, other = (curve(path, name) for path in ("whole.h5", "cut.h5"))
             check(all(np.array_equal(a, b, equal_nan=True) for a, b in zip(one[:3], other[:3])), engine, name)
 

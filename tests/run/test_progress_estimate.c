@@ -33,12 +33,12 @@ static gg_window_test test_of(double scale, uint64_t window, double sure_at)
 static double true_end(double scale, double sure_at)
 {
   bool exact = false;
-  uint64_t window = gg_run_criteria_next_test(&criteria, 0, NULL);
+  uint64_t window = gg_statistics_rule_next_test(&criteria, 0, NULL);
   for (;;) {
     gg_window_test t = test_of(scale, window, sure_at);
-    if (gg_run_criteria_are_met(&t, exact)) return (double)(criteria.warmup + window);
+    if (gg_statistics_rule_is_met(&t, exact)) return (double)(criteria.warmup + window);
     exact = t.exact;
-    window = gg_run_criteria_next_test(&criteria, 0, &t);
+    window = gg_statistics_rule_next_test(&criteria, 0, &t);
   }
 }
 
@@ -49,14 +49,14 @@ static void follow(double scale, double sure_at, int *exactly)
   gg_progress_estimate o = {0};
   struct gg_replicas_state s = {.averaging = 1, .due = criteria.warmup, .window_at = criteria.warmup};
   double end = true_end(scale, sure_at), window;
-  s.goal = s.window_at + gg_run_criteria_next_test(&criteria, 0, NULL);
+  s.goal = s.window_at + gg_statistics_rule_next_test(&criteria, 0, NULL);
   assert_false(gg_run_progress_end(&o, &criteria, &s).known);
   for (; (double)s.due < end; s.due++) {
     window = (double)(s.due - s.window_at);
     if (s.due >= s.goal) {
       gg_window_test t = test_of(scale, (uint64_t)window, sure_at);
       s.exact = t.exact;
-      s.goal = s.window_at + gg_run_criteria_next_test(&criteria, 0, &t);
+      s.goal = s.window_at + gg_statistics_rule_next_test(&criteria, 0, &t);
     }
     if (window < 40) continue;
     gg_convergence c = errors_of(scale, window, sure_at);
@@ -107,9 +107,9 @@ static void so_many_collisions(void **state)
   s = (struct gg_replicas_state){.averaging = 1, .due = 90020, .window_at = 20, .goal = 100020};
   end = gg_run_progress_end(&o, &p, &s);
   assert_true(end.known && end.at == 200020);
-  assert_false(gg_run_criteria_end(&p, 0, 199999));
+  assert_false(gg_statistics_rule_ends(&p, 0, 199999));
   p.relative_error = 1e-9;
-  assert_true(gg_run_criteria_end(&p, 0, 75000)); /* out of reach */
+  assert_true(gg_statistics_rule_ends(&p, 0, 75000)); /* out of reach */
 }
 
 /* A window with a trend will be given up; one without a trend whose errors are not trusted yet will be extended. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The grains of an engine as arrays, and an engine with another model that continues with them. */
-#ifndef GG_RUN_ENGINE_GRAINS_H
-#define GG_RUN_ENGINE_GRAINS_H
+#ifndef GG_COMMON_ENGINE_GRAINS_H
+#define GG_COMMON_ENGINE_GRAINS_H
 
 #include "common/engine.h"
 
@@ -13,14 +13,14 @@ typedef struct gg_engine_grains {
   gg_grain_arrays grains;
 } gg_engine_grains;
 
-gg_status gg_run_engine_grains_make(gg_engine_grains *g, size_t n, gg_error *err);
-void gg_run_engine_grains_clear(gg_engine_grains *g);
+gg_status gg_common_engine_grains_make(gg_engine_grains *g, size_t n, gg_error *err);
+void gg_common_engine_grains_clear(gg_engine_grains *g);
 /* All of an engine of this model, into arrays that were made for it. */
-void gg_run_engine_grains_read(gg_engine *engine, const gg_model *model, gg_engine_grains *g);
+void gg_common_engine_grains_read(gg_engine *engine, const gg_model *model, gg_engine_grains *g);
 
-bool gg_run_is_same_gas(const gg_model *a, const gg_model *b);
+bool gg_common_is_same_gas(const gg_model *a, const gg_model *b);
 /* An engine of another model of the same gas, with its grains, clock, counts and random streams, that keeps sums. The
  * old one stays. */
-gg_status gg_run_engine_continue(gg_engine *engine, const gg_model *model, gg_engine **next, gg_error *err);
+gg_status gg_common_engine_continue(gg_engine *engine, const gg_model *model, gg_engine **next, gg_error *err);
 
 #endif

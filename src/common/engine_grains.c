@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "run/engine_grains.h"
+#include "common/engine_grains.h"
 
 #include <stdlib.h>
 
 #include "base/memory.h"
 
-void gg_run_engine_grains_clear(gg_engine_grains *g)
+void gg_common_engine_grains_clear(gg_engine_grains *g)
 {
   free(g->number);
   free(g->species);
 }
 
-gg_status gg_run_engine_grains_make(gg_engine_grains *g, size_t n, gg_error *err)
+gg_status gg_common_engine_grains_make(gg_engine_grains *g, size_t n, gg_error *err)
 {
   g->number = gg_base_array_new(9 * n, sizeof *g->number, err);
   g->species = gg_base_array_new(n, sizeof *g->species, err);
@@ -39,7 +39,7 @@ static void read_chunk(void *context, const gg_chunk *chunk)
   }
 }
 
-void gg_run_engine_grains_read(gg_engine *engine, const gg_model *model, gg_engine_grains *g)
+void gg_common_engine_grains_read(gg_engine *engine, const gg_model *model, gg_engine_grains *g)
 {
   const size_t n = (size_t)model->n;
   engine->ops->snapshot(engine, !model->homogeneous, read_chunk, &(reading){.to = g, .n = n});
@@ -49,7 +49,7 @@ void gg_run_engine_grains_read(gg_engine *engine, const gg_model *model, gg_engi
                                 .species = g->species};
 }
 
-bool gg_run_is_same_gas(const gg_model *a, const gg_model *b)
+bool gg_common_is_same_gas(const gg_model *a, const gg_model *b)
 {
   bool same = a->flow == b->flow && a->n == b->n && a->n_species == b->n_species && a->boltzmann == b->boltzmann &&
               (a->rule == GG_SMOOTH) == (b->rule == GG_SMOOTH) && a->stress_unit == b->stress_unit &&
@@ -61,15 +61,15 @@ bool gg_run_is_same_gas(const gg_model *a, const gg_model *b)
   return same;
 }
 
-gg_status gg_run_engine_continue(gg_engine *engine, const gg_model *model, gg_engine **next, gg_error *err)
+gg_status gg_common_engine_continue(gg_engine *engine, const gg_model *model, gg_engine **next, gg_error *err)
 {
   gg_engine_grains g = {0};
-  gg_status status = gg_run_engine_grains_make(&g, (size_t)model->n, err);
+  gg_status status = gg_common_engine_grains_make(&g, (size_t)model->n, err);
   if (status == GG_OK) {
-    gg_run_engine_grains_read(engine, model, &g);
+    gg_common_engine_grains_read(engine, model, &g);
     status = engine->ops->create_with(model, 0, 0, &g.grains, engine, next, err);
   }
-  gg_run_engine_grains_clear(&g);
+  gg_common_engine_grains_clear(&g);
   if (status == GG_OK) (*next)->ops->keep_sums(*next, true);
   return status;
 }
