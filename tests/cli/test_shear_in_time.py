@@ -175,10 +175,10 @@ def test_an_interrupted_run_resumes_to_the_same_bits():
     """Oscillation, and a cooling gas with functions of two times: its intervals have many parts, in which it is stopped."""
     oscillates = (OSCILLATION % (5, 5)).replace("{e: 0.8}", "{e: 0.8, beta: 0.3}") + "shear_steps: 40\nrun: {duration: 20, replicas: 2}\n"
     cools = """{flow: hcs, engine: dsmc, phi: 0.1, collision: {e: 0.8}, measure: [rheology, diffusion],
-        dsmc: {particles: 5000}, run: {duration: 300, replicas: 2}, """
+        dsmc: {particles: 5000}, run: {duration: 500, replicas: 2}, """
     for gas, engine, names in [(oscillates, engine, OSCILLATES) for engine in ("md", "dsmc")] + [(cools, e, AGES) for e in ("md", "dsmc")]:
         scene = gas.replace("engine: dsmc", "engine: " + engine)
-        scene += "particles: 400, output: {checkpoint_every: 0.02}}\n" if gas is cools else "particles: 400\noutput: {checkpoint_every: 0.02}\n"
+        scene += "particles: 4000, output: {checkpoint_every: 0.02}}\n" if gas is cools else "particles: 400\noutput: {checkpoint_every: 0.02}\n"
         for left in glob.glob("cut.*"):
             os.remove(left)
         check(run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=scene).code == 0, engine)
