@@ -103,7 +103,7 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
     gg_measure_frame_visit(&f, &t->model, gg_measure_moments_add, &t->last);
   }
   if (status == GG_OK && state) status = set_state(t, &f, edges, state, err);
-  if (status == GG_OK && into) gg_api_frame_copy(&f, into);
+  if (status == GG_OK && into) gg_measure_frame_copy(&f, into->position, into->velocity, into->spin, into->species);
   f.species = NULL; /* belongs to the trajectory */
   gg_measure_frame_free(&f);
   return status;

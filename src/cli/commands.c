@@ -79,9 +79,9 @@ const gg_command gg_cli_commands[] = {
      gg_cli_fingerprint_main},
     {"page", "[SCENE.yaml]", "The teaching page: one HTML file with live engines",
      "Writes one HTML file that needs no network and no installation: both engines, the theories and the measurements "
-     "as WebAssembly, the box in three dimensions beside live curves, and ten lessons. The page starts with the scene. "
-     "The page is installed with graingas, or is graingas-VERSION-page.html of a release (--page FILE), or is built "
-     "from the sources: ./check --page.",
+     "as WebAssembly, the box in three dimensions beside live curves, and eleven lessons. The page starts with the "
+     "scene. The page is installed with graingas, or is made in the sources by `ninja -C build page` with emscripten, "
+     "which ./check --page installs, or is another file (--page FILE).",
      GG_OPT_PAGE | GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_SEED | GG_OPT_QUIET, gg_cli_page_main},
     {"bench", "[md|dsmc|observables|error|compare A B]",
      "Speed of the engines: collisions per second by kernel, density and size; run time against error",

@@ -90,3 +90,16 @@ void gg_measure_frame_visit(const gg_frame *f, const gg_model *model, gg_visit *
     visit(context, &chunk);
   }
 }
+
+void gg_measure_frame_copy(const gg_frame *f, double *position, double *velocity, double *spin, int *species)
+{
+  for (size_t i = 0; i < f->n; i++) {
+    const size_t place = f->id ? (size_t)f->id[i] : i;
+    if (species) species[place] = f->species ? f->species[i] : 0;
+    for (size_t a = 0; a < 3; a++) {
+      if (position) position[3 * place + a] = f->position[3 * i + a];
+      if (velocity) velocity[3 * place + a] = f->velocity[3 * i + a];
+      if (spin) spin[3 * place + a] = f->spin ? f->spin[3 * i + a] : 0;
+    }
+  }
+}

@@ -18,6 +18,8 @@ gg_status gg_measure_frame_take(gg_engine *engine, const gg_model *model, gg_fra
 void gg_measure_frame_free(gg_frame *frame);
 /* Places of the grains in the order of their numbers, so that a row is the same grain in every frame; to be freed. */
 size_t *gg_measure_frame_order(const gg_frame *frame, gg_error *err);
+/* Copy the grains in the order of their numbers; NULL: not wanted. */
+void gg_measure_frame_copy(const gg_frame *f, double *position, double *velocity, double *spin, int *species);
 /* Velocities and spins of a frame, in chunks as an engine shows them; spins there are surface velocities. */
 void gg_measure_frame_visit(const gg_frame *frame, const gg_model *model, gg_visit *visit, void *context);
 

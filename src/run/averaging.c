@@ -123,7 +123,7 @@ static gg_status open_window(gg_replicas *all, gg_error *err)
   for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_open_window(&all->replica[i], err));
   gg_run_distribution_changed(&all->tasks);
   if (!all->state.averaging) gg_run_progress_new_phase(&all->progress);
-  gg_run_progress_open_window(&all->progress);
+  gg_statistics_forecast_open_window(&all->progress.forecast);
   all->estimated_at = 0;
   all->state.averaging = 1;
   all->state.exact = 0;

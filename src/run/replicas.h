@@ -4,7 +4,7 @@
 #ifndef GG_REPLICAS_H
 #define GG_REPLICAS_H
 
-#include "measure/wall_modes.h"
+#include "measure/slow_modes.h"
 #include "run/progress_estimate.h"
 #include "run/scheduler.h"
 #include "statistics/stopping_rule.h"
@@ -108,19 +108,8 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *converge
 /* correlations.c: of the quantities in result->correlations, whose errors are known. */
 gg_status gg_run_replicas_correlations(const gg_replicas *all, gg_result *result, gg_error *err);
 
-/* slow_modes.c: what moves slowly across the gap between walls, over the window. Times in samples. */
-typedef struct gg_slow_modes {
-  int modes; /* measure/wall_modes.h; 0 without walls */
-  double decay[GG_MOST_WALL_MODES];
-  double time; /* the longest over which results remember a mode: half its decay time where they follow its square */
-  double mean_time; /* that of all modes: the slowest of several estimates is mostly one that is too long */
-  /* Walls alike: how far from the middle the centre of mass was on average, and that mean's share in the mean square.
-   */
-  double aside, aside_share;
-} gg_slow_modes;
+/* series_means.c: what moves slowly across the gap between walls, over the window (measure/slow_modes.h). */
 gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow, gg_error *err);
-/* Error of a quantity's mean from the square of an odd mode with that decay time: the scatter of what is proportional
- * to the square, over the window. */
 gg_status gg_run_replicas_error_by_square(const gg_replicas *all, int mode, double decay, gg_quantity q, double *error,
                                           gg_error *err);
 

@@ -46,3 +46,30 @@ gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t l
   free(series);
   return status;
 }
+
+gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *w, gg_error *err)
+{
+  *w = (gg_slow_modes){0};
+  if (!all->state.averaging || gg_measure_wall_modes(&all->model) == 0) return GG_OK;
+  const gg_series **series = series_of(all, err);
+  if (!series) return GG_FAILED;
+  const size_t at = all->replica[0].sampler.wall_modes_at;
+  const gg_status status = gg_measure_slow_modes(&all->model, series, (size_t)all->n, at, w, err);
+  free(series);
+  return status;
+}
+
+gg_status gg_run_replicas_error_by_square(const gg_replicas *all, int mode, double decay, gg_quantity q, double *error,
+                                          gg_error *err)
+{
+  const gg_series *first = &all->replica[0].series;
+  const size_t n = (size_t)all->n, rows = gg_measure_slow_rows(first),
+               channel = all->replica[0].sampler.wall_modes_at + (size_t)mode;
+  const gg_series **series = series_of(all, err);
+  double *response = gg_base_array_new(gg_series_window_rows(first) / rows * n, sizeof *response, err);
+  gg_status status = series && response ? gg_run_replicas_blocks(all, q, rows, response, err) : GG_FAILED;
+  if (status == GG_OK) status = gg_measure_error_by_square(series, n, channel, decay, response, error, err);
+  free(series);
+  free(response);
+  return status;
+}
