@@ -41,7 +41,7 @@ def execute(parts):
 
 
 def test_every_notebook_is_tried():
-    assert sorted(NOTEBOOKS) == ["friction", "haffs_law", "hydrodynamics", "own_theory", "suspension", "sweep_to_xarray",
+    assert sorted(NOTEBOOKS) == ["friction", "haffs_law", "hydrodynamics", "oscillation", "own_theory", "suspension", "sweep_to_xarray",
                                  "three_questions", "trajectory", "two_temperatures"]
 
 
@@ -82,6 +82,16 @@ def test_hydrodynamics():
     assert abs(moments["P_yx"] - 1) < 0.03 and abs(moments["P_xx"] - 1) < 0.03 and abs(moments["q_y"] - 1) < 0.15
     assert 1.08 < ns["P_yx"] < 1.3 and 0.85 < ns["P_xx"] < 0.97
     assert all(abs(quiet.ratio(name, flux) - 1) < 0.03 for name in quiet.theory for flux in ("P_xx", "P_yy", "q_y"))
+
+
+def test_oscillation():
+    """Slow oscillations are steady shear at the present rate; Monte Carlo has the moduli of the closure, which converge to
+    second order."""
+    names = execute(cells("oscillation"))
+    moduli, change = names["moduli"], np.diff(names["loss"])
+    assert abs(names["amplitude"] / (8 / (3 * np.pi) * names["p0"]) - 1) < 0.05 and abs(moduli["third_harmonic"][0.04] - 0.2) < 0.03
+    assert np.allclose(moduli["loss_modulus"], moduli["loss_modulus_of_closure"], rtol=0.03)
+    assert np.allclose(change[:-1] / change[1:], 4, atol=0.5) and 0 < moduli["third_harmonic"][2] < 0.05
 
 
 def test_own_theory():

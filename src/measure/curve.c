@@ -156,7 +156,7 @@ typedef struct pooled {
 static void sum_up(pooled *p)
 {
   for (size_t r = 0; r < p->n_runs; r++)
-    for (size_t b = 0; b < p->bins[r]->blocks; b++)
+    for (size_t b = 0; b < gg_bins_blocks(p->bins[r]); b++)
       for (size_t k = 0; k < p->width; k++) p->total[k] += gg_bins_block(p->bins[r], b)[k];
 }
 
@@ -173,7 +173,7 @@ static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, c
   gg_curves part = {.model = full->model, .group = full->group};
   for (size_t r = 0; r < p->n_runs && !part.failed; r++) {
     gg_statistics_jackknife_cut(j);
-    for (size_t b = 0; b < p->bins[r]->blocks && !part.failed; b++) {
+    for (size_t b = 0; b < gg_bins_blocks(p->bins[r]) && !part.failed; b++) {
       evaluate(p, gg_bins_block(p->bins[r], b), of, self, &part);
       if (!part.failed) {
         differences(full, &part, gg_statistics_jackknife_next(j));
@@ -235,7 +235,7 @@ gg_status gg_measure_curves_estimate(const gg_bins *const *bins, size_t n_runs, 
                                      const char *group, double memory, gg_curves *list, gg_error *err)
 {
   pooled p = {.bins = bins, .n_runs = n_runs, .width = bins[0]->width, .per_block = bins[0]->per_block};
-  for (size_t r = 0; r < n_runs; r++) p.blocks += bins[r]->blocks;
+  for (size_t r = 0; r < n_runs; r++) p.blocks += gg_bins_blocks(bins[r]);
   if (p.blocks == 0) return GG_OK;
   p.total = gg_base_array_new(2 * p.width, sizeof(double), err);
   if (!p.total) return GG_FAILED;

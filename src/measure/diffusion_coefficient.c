@@ -41,16 +41,24 @@ static int nodes_of(const double *bin, double least, node *list)
   return n;
 }
 
+/* Components of which a component of the tensor is made, of mean temperature and mean D. */
+static double diagonal(const double *bin, int lag, int channel, int a)
+{
+  if (a < GG_LAG_XY) return gg_lag_mean(bin, lag, channel + a);
+  return sqrt(fabs(gg_lag_mean(bin, lag, channel) * gg_lag_mean(bin, lag, channel + 1)));
+}
+
 /* C(0) r(t) scatters by T 2Dt, and there are two velocities, at both ends. */
 static gg_coefficient green_kubo(const gg_long_time_tail *tail, const double *bin, int a, const node *list, int n,
                                  double samples)
 {
   gg_running at[NODES];
-  double T = gg_lag_mean(bin, 0, GG_LAG_CC + a);
+  double T = diagonal(bin, 0, GG_LAG_CC, a);
   for (int k = 0; k < n; k++) {
     int lag = list[k].lag;
     at[k] = (gg_running){.t = gg_lag_mean(bin, lag, GG_LAG_TIME), .D = gg_lag_mean(bin, lag, GG_LAG_CR + a)};
-    at[k].noise = T * fabs(at[0].D) / (bin[lag * GG_LAG_WIDTH + GG_LAG_COUNT] * samples);
+    at[k].noise =
+        T * fabs(diagonal(bin, list[0].lag, GG_LAG_CR, a)) / (bin[lag * GG_LAG_WIDTH + GG_LAG_COUNT] * samples);
   }
   return gg_measure_long_time_tail_coefficient(tail, at, n);
 }
@@ -65,8 +73,10 @@ static gg_coefficient einstein(const gg_long_time_tail *tail, const double *bin,
     int one = list[k].lag, two = list[k + 1].lag;
     double from = gg_lag_mean(bin, one, GG_LAG_TIME), to = gg_lag_mean(bin, two, GG_LAG_TIME);
     at[k] = (gg_running){.t = 0.5 * (from + to)};
-    at[k].D = 0.5 * (gg_lag_mean(bin, two, GG_LAG_RR + a) - gg_lag_mean(bin, one, GG_LAG_RR + a)) / (to - from);
-    at[k].noise = 4 * at[0].D * at[0].D / (bin[one * GG_LAG_WIDTH + GG_LAG_COUNT] * samples * list[k].spacing);
+    const int rr = GG_LAG_RR + (a < GG_LAG_XY ? a : GG_LAG_XY);
+    at[k].D = 0.5 * (gg_lag_mean(bin, two, rr) - gg_lag_mean(bin, one, rr)) / (to - from);
+    const double scatter = a < GG_LAG_XY ? at[0].D : diagonal(bin, list[0].lag, GG_LAG_CR, a);
+    at[k].noise = 4 * scatter * scatter / (bin[one * GG_LAG_WIDTH + GG_LAG_COUNT] * samples * list[k].spacing);
   }
   return gg_measure_long_time_tail_coefficient(tail, at, n - 1);
 }

@@ -18,14 +18,19 @@ enum {
 };
 static const int gg_lag_origins[GG_LAG_LEVELS] = {2, 8, 8, 8};
 
-/* Sums over grains and origins at one lag: number, time, C(0)C(t), C r and r^2 by component, r the displacement. */
+/* Components of the tensor: x, y, z, and C_x(t) with C_y(0), C_y(t) with C_x(0), which shear alone correlates. */
+enum { GG_LAG_XY = 3, GG_LAG_YX, GG_LAG_COMPONENTS };
+
+/* Sums over grains and origins at one lag: number, time, C(0)C(t), C r and r r by component, r the displacement; r_x
+ * r_y stands for both mixed components. */
 enum {
   GG_LAG_COUNT,
   GG_LAG_TIME,
   GG_LAG_CC,
-  GG_LAG_CR = GG_LAG_CC + 3,
-  GG_LAG_RR = GG_LAG_CR + 3,
-  GG_LAG_WIDTH = GG_LAG_RR + 3
+  GG_LAG_CC_XY = GG_LAG_CC + GG_LAG_XY,
+  GG_LAG_CR = GG_LAG_CC + GG_LAG_COMPONENTS,
+  GG_LAG_RR = GG_LAG_CR + GG_LAG_COMPONENTS,
+  GG_LAG_WIDTH = GG_LAG_RR + GG_LAG_YX
 };
 
 /* Index among all lags of the lag of so many steps of a level; -1: at another level. */
@@ -49,7 +54,8 @@ static inline double gg_lag_mean(const double *bin, int lag, int channel)
   return at[GG_LAG_COUNT] > 0 ? at[channel] / at[GG_LAG_COUNT] : NAN;
 }
 
-/* D of one species and component, from its means over samples. NaN if the samples do not cover long enough lags. */
+/* D of one species and component, from its means over samples. NaN if the samples do not cover long enough lags. The
+ * Einstein coefficient of a mixed component is the mean of both. */
 typedef struct gg_diffusion_coefficients {
   gg_coefficient green_kubo, einstein;
 } gg_diffusion_coefficients;

@@ -58,7 +58,9 @@ typedef struct gg_observable_curves {
   size_t (*bins)(const void *self); /* number of bins */
   int every;
   int (*every_of)(const void *self); /* replaces `every` if that depends on the size; NULL: `every` */
-  int parts;   /* above 1: each interval is divided into so many parts with a snapshot each, for correlations in time */
+  int parts; /* above 1: each interval is divided into so many parts with a snapshot each, for correlations in time */
+  /* True if bins are sums of a transient, from a snapshot at its beginning on. NULL: never. */
+  bool (*of_transient)(const void *self);
   bool framed; /* velocities of the scene's frame (cell_frame.h); else about the imposed flow */
   void (*add_snapshot)(void *self, const gg_snapshot *snapshot, double *bins);
   /* Called with every sampling interval, after the snapshot at its end. The data go into the bins with the next

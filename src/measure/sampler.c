@@ -22,7 +22,10 @@ static gg_status attach(gg_sampler *s, const gg_observable *o, gg_error *err)
   if (!c) return GG_OK;
   if (c->parts > s->parts) s->parts = c->parts;
   s->every[k] = c->every_of ? c->every_of(s->self[k]) : c->every;
-  return gg_statistics_bins_init(&s->bins[k], c->bins(s->self[k]), err);
+  GG_TRY(gg_statistics_bins_init(&s->bins[k], c->bins(s->self[k]), err));
+  s->bins[k].whole = c->of_transient && c->of_transient(s->self[k]);
+  s->transient |= s->bins[k].whole;
+  return GG_OK;
 }
 
 gg_status gg_measure_sampler_init(gg_sampler *s, const gg_model *model, unsigned flags, gg_error *err)
@@ -290,12 +293,12 @@ void gg_measure_sampler_row(gg_sampler *s, gg_engine *engine, double elapsed, do
 
 /* Observables of several parts take a snapshot after each of them; the others at the end of every so-many-th interval.
  */
-static bool is_due(const gg_sampler *s, int k, int part, uint64_t samples)
+static bool is_due(const gg_sampler *s, int k, bool last, uint64_t samples)
 {
   const gg_observable *o = s->observable[k];
   if (!o->curves || !gg_measure_observable_applies(o, s->model)) return false;
   if (gg_measure_observable_wants_collisions(o, s->model) && s->shown != GG_OBSERVED) return false;
-  return o->curves->parts > 1 || (part == s->parts && samples % (uint64_t)s->every[k] == 0);
+  return o->curves->parts > 1 || (last && samples % (uint64_t)s->every[k] == 0);
 }
 
 static void take_snapshot(gg_sampler *s, gg_engine *engine, double elapsed, double velocity_factor)
@@ -313,33 +316,44 @@ static void take_snapshot(gg_sampler *s, gg_engine *engine, double elapsed, doub
   gg_measure_local_frame_of_flow(&s->flow->frame, s->model, &now);
 }
 
-void gg_measure_sampler_curves(gg_sampler *s, gg_engine *engine, int part, double elapsed, double velocity_factor,
-                               uint64_t samples)
+int gg_measure_sampler_parts(const gg_sampler *s, double interval, double T)
+{
+  enum { MOST = 1024 };
+  if (!s->transient) return s->parts;
+  return (int)fmin(fmax(ceil(s->parts * interval * gg_common_model_collision_rate(s->model, T)), 1), MOST);
+}
+
+void gg_measure_sampler_curves(gg_sampler *s, gg_engine *engine, int part, int parts, double elapsed,
+                               double velocity_factor, uint64_t samples)
 {
   bool any = false;
-  for (int k = 0; k < s->n_observables; k++) any |= is_due(s, k, part, samples);
+  const bool last = part == parts;
+  for (int k = 0; k < s->n_observables; k++) any |= is_due(s, k, last, samples);
   if (any) take_snapshot(s, engine, elapsed, part == 1 ? velocity_factor : 1);
   for (int k = 0; k < s->n_observables; k++) {
-    if (!is_due(s, k, part, samples)) continue;
+    if (!is_due(s, k, last, samples)) continue;
     const gg_snapshot *shot = s->framed && s->observable[k]->curves->framed ? &s->framed->snapshot : &s->snapshot;
     s->observable[k]->curves->add_snapshot(s->self[k], shot, gg_statistics_bins_sample(&s->bins[k]));
-    if (part == s->parts && !in_burst(s, engine, k, samples)) gg_statistics_bins_commit(&s->bins[k]);
+    if (last && !in_burst(s, engine, k, samples)) gg_statistics_bins_commit(&s->bins[k]);
   }
 }
 
-void gg_measure_sampler_restart(gg_sampler *s)
+void gg_measure_sampler_restart(gg_sampler *s, gg_engine *engine)
 {
   if (s->flow) gg_measure_slabs_init(&s->flow->window, s->model);
   for (int k = 0; k < s->n_observables; k++) {
     gg_statistics_bins_restart(&s->bins[k]);
     if (s->observable[k]->restart) s->observable[k]->restart(s->self[k]);
+    if (!s->bins[k].whole) continue;
+    take_snapshot(s, engine, 0, 1); /* the beginning of the transient */
+    s->observable[k]->curves->add_snapshot(s->self[k], &s->snapshot, gg_statistics_bins_sample(&s->bins[k]));
   }
 }
 
-void gg_measure_sampler_change(gg_sampler *s, bool averaging)
+void gg_measure_sampler_change(gg_sampler *s, gg_engine *engine, bool averaging)
 {
   s->shown = GG_OBSERVED_UNSET;
   if (!averaging) return;
-  gg_measure_sampler_restart(s);
+  gg_measure_sampler_restart(s, engine);
   begin_burst(s);
 }

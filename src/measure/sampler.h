@@ -24,6 +24,7 @@ typedef struct gg_sampler {
   enum gg_observed { GG_OBSERVED_UNSET, GG_NOT_OBSERVED, GG_OBSERVED } shown; /* state of the collision callback */
   gg_snapshot snapshot;    /* taken only if an observable with curves is due */
   int parts;               /* of an interval while averaging: a snapshot ends each part */
+  bool transient;          /* some bins are of a transient */
   struct gg_sampler_flow { /* between walls; else NULL */
     gg_slabs window;       /* of all rows since averaging began */
     gg_local_frame frame;  /* of them; before, of the last row */
@@ -47,14 +48,17 @@ bool gg_measure_sampler_find_history(const gg_sampler *s, gg_quantity q, gg_func
 /* Fill the row after an interval of length `elapsed`. `velocity_factor`: of a rescaling that the observables have not
  * seen. */
 void gg_measure_sampler_row(gg_sampler *s, gg_engine *engine, double elapsed, double velocity_factor, bool averaging);
-/* While averaging: what curves need after each part of an interval, from 1 to s->parts; `samples`: whole intervals
- * since averaging began. */
-void gg_measure_sampler_curves(gg_sampler *s, gg_engine *engine, int part, double elapsed, double velocity_factor,
-                               uint64_t samples);
+/* Number of parts of an interval while averaging. Intervals of a transient are long or short: as many parts as
+ * s->parts to a collision at the temperature T. */
+int gg_measure_sampler_parts(const gg_sampler *s, double interval, double T);
+/* While averaging: what curves need after each part of an interval, from 1 to `parts`; `samples`: whole intervals since
+ * averaging began. */
+void gg_measure_sampler_curves(gg_sampler *s, gg_engine *engine, int part, int parts, double elapsed,
+                               double velocity_factor, uint64_t samples);
 /* Averaging begins anew. */
-void gg_measure_sampler_restart(gg_sampler *s);
+void gg_measure_sampler_restart(gg_sampler *s, gg_engine *engine);
 /* The model has changed, and the engine is another: curves are of the new gas alone. */
-void gg_measure_sampler_change(gg_sampler *s, bool averaging);
+void gg_measure_sampler_change(gg_sampler *s, gg_engine *engine, bool averaging);
 
 /* Before each interval of the window: the engine reports collisions to the observables that need them, always or in
  * bursts. `within`: the interval was interrupted, and goes on. */

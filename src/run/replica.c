@@ -105,19 +105,19 @@ static gg_status advance_part(gg_replica *r, int part, int parts, bool adapt, gg
   return ops->advance(r->engine, r->clock.interval / parts, most_collisions(r, adapt), &r->clock.part_gone, err);
 }
 
-/* Advance by one sampling interval, or to the end of one that was stopped. It has several parts if an observable takes
- * snapshots within it. */
+/* Advance by one sampling interval, whose parts end with snapshots of observables, or finish one that was stopped. */
 static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, uint64_t *happened, gg_error *err)
 {
   struct gg_replica_clock *c = &r->clock;
-  int parts = c->averaging ? r->sampler.parts : 1;
+  const int last = c->averaging ? gg_measure_sampler_parts(&r->sampler, c->interval, c->temperature) : 1;
   if (!c->part) c->gone = 0, c->happened = collisions(r);
   if (c->averaging) GG_TRY(observe_collisions(r, err));
-  for (int part = c->part ? (int)c->part : 1; part <= parts; part++) {
-    GG_TRY(advance_part(r, part, parts, adapt, err));
+  for (int part = c->part ? (int)c->part : 1; part <= last; part++) {
+    GG_TRY(advance_part(r, part, last, adapt, err));
     c->gone += c->part_gone;
     if (c->averaging)
-      gg_measure_sampler_curves(&r->sampler, r->engine, part, c->part_gone, c->velocity_factor, c->window_samples);
+      gg_measure_sampler_curves(&r->sampler, r->engine, part, last, c->part_gone, c->velocity_factor,
+                                c->window_samples);
   }
   if (c->averaging) c->window_samples++;
   *elapsed = c->gone;
@@ -259,7 +259,7 @@ static gg_status change(gg_replica *r, const gg_model *model, gg_error *err)
   r->engine = next;
   r->model = *model; /* which the observables borrow */
   if (r->clock.averaging) r->clock.window_samples = 0;
-  gg_measure_sampler_change(&r->sampler, r->clock.averaging);
+  gg_measure_sampler_change(&r->sampler, r->engine, r->clock.averaging);
   return GG_OK;
 }
 
@@ -349,7 +349,7 @@ gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err)
   r->clock.window_cpu = r->clock.cpu;
   r->clock.averaging = 1;
   r->clock.window_samples = 0;
-  gg_measure_sampler_restart(&r->sampler);
+  gg_measure_sampler_restart(&r->sampler, r->engine);
   return observe_collisions(r, err);
 }
 
@@ -367,8 +367,8 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
   const struct gg_replica_clock *c = &r->clock;
   const double plain[] = {c->temperature, c->velocity_factor, c->gone, c->part_gone, c->cpu, c->window_cpu};
   bool good = c->time >= 0 /* or infinite */ && c->interval > 0 && c->interval < 1e300 && c->part >= 0 &&
-              c->part <= r->sampler.parts && c->power > -1000000000 && c->power < 1000000000 && !isnan(c->next_frame) &&
-              !isnan(c->frame_every);
+              c->part <= gg_measure_sampler_parts(&r->sampler, c->interval, c->temperature) && c->power > -1000000000 &&
+              c->power < 1000000000 && !isnan(c->next_frame) && !isnan(c->frame_every);
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
   return good ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }

@@ -342,7 +342,7 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
   gg_status status =
       gg_measure_curves_estimate(bins, (size_t)all->n, o->curves->of_bins, first->sampler.self[k], o->name,
                                  memory / fmax(first->sampler.every[k], 1), &result->curves, err);
-  if (status == GG_OK && (size_t)all->n * bins[0]->blocks < GG_MIN_BLOCKS)
+  if (status == GG_OK && !bins[0]->whole && (size_t)all->n * bins[0]->blocks < GG_MIN_BLOCKS)
     gg_run_result_warn(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
                        (size_t)all->n * bins[0]->blocks, GG_MIN_BLOCKS);
   warn_of_short_blocks(result, before, o->name);

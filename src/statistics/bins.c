@@ -54,7 +54,7 @@ void gg_statistics_bins_coarsen(gg_bins *b, size_t per_block)
 
 void gg_statistics_bins_commit(gg_bins *b)
 {
-  if (++b->pending < b->per_block) return;
+  if (b->whole || ++b->pending < b->per_block) return;
   b->pending = 0;
   if (++b->blocks == GG_BINS_BLOCKS) join_neighbours(b);
 }

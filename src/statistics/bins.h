@@ -4,6 +4,8 @@
 #ifndef GG_BINS_H
 #define GG_BINS_H
 
+#include <stdbool.h>
+
 #include "base/archive.h"
 
 enum { GG_BINS_BLOCKS = 32 };
@@ -13,6 +15,7 @@ typedef struct gg_bins {
   size_t blocks;    /* complete */
   size_t per_block; /* samples in each: a power of two */
   size_t pending;   /* samples in the block being filled */
+  bool whole;       /* a transient: all samples are one block, and errors come from several runs */
   double *sum;      /* (GG_BINS_BLOCKS + 1) x width: the complete blocks, then the one being filled */
 } gg_bins;
 
@@ -28,6 +31,10 @@ void gg_statistics_bins_commit(gg_bins *b);
 /* Join neighbouring blocks until each has `per_block` samples (a power of two); a single remaining block is dropped. */
 void gg_statistics_bins_coarsen(gg_bins *b, size_t per_block);
 
+static inline size_t gg_bins_blocks(const gg_bins *b)
+{
+  return b->whole ? 1 : b->blocks;
+}
 static inline const double *gg_bins_block(const gg_bins *b, size_t i)
 {
   return b->sum + i * b->width;

@@ -116,6 +116,36 @@ def test_slow_oscillation():
     check(3 < first / second < 5 and 3 < second / third < 5 and third < 0.003 * loss[-1], loss)
 
 
+def test_frequency_and_amplitude_in_a_bath():
+    """A gas that a bath keeps warm has both apart. Slow and small: G''/omega is the viscosity of steady shear at the same
+    small rate, and there is no third harmonic. Fast: G' tends to a constant, while G'' grows by collisions alone. Larger
+    rates heat the gas: both moduli grow. Monte Carlo has the moduli of the closure."""
+    scene = """{flow: usf, engine: dsmc, phi: 0.2, collision: {e: 0.8}, thermostat: bath, bath: {drag: 0.2, temperature: 1},
+        start: {temperature: %g}, shear_rate: "%g*sin(%g*t)", shear_period: %.17g, shear_steps: 40,
+        dsmc: {particles: %d}, run: {duration: %.17g, replicas: 4}}"""
+
+    def moduli(rate, omega, periods, grains, T=1):
+        period = 2 * np.pi / omega
+        done = run("run", "scene.yaml", "--quiet", "--output", "f.h5",
+                   scene=scene % (T, rate, omega, period, grains, periods * period))
+        check(done.code == 0, done.err)
+        measured = [np.array(number("f.h5", "stress_over_strain", name)) * rate ** 2 for name in ("storage_modulus", "loss_modulus")]
+        closure = [number("f.h5", "stress_over_strain", name + "_of_closure")[0] * rate ** 2 for name in (
+            "storage_modulus", "loss_modulus")]
+        return measured, closure, number("f.h5", "stress_over_strain", "third_harmonic_of_closure")[0]
+    steady = run("theory", "scene.yaml", "--json", "--quiet", "--theory", "gaussian_closure", scene="""{flow: usf, phi: 0.2,
+        collision: {e: 0.8}, thermostat: bath, bath: {drag: 0.2, temperature: 1}, shear_rate: 0.1}""")
+    viscosity = 0.1 * json.loads(steady.out)["theory"]["gaussian_closure"]["shear_viscosity"]["mean"]
+    _, (storage, loss), third = moduli(0.1, 0.02, 2, 100, 0.5)
+    check(abs(loss / 0.02 / viscosity - 1) < 0.01 and 0 < storage < 0.06 * loss and third < 0.005, storage, loss, viscosity, third)
+    for rate, omega in (1, 4), (6, 4):
+        measured, closure, _ = moduli(rate, omega, 6, 4000)
+        for (value, error), theory in zip(measured, closure):
+            check(abs(value - theory) < 4 * error + 0.03 * theory and error < 0.04 * theory, rate, omega, value, error, theory)
+    fast = [moduli(1, omega, 4, 100, 0.55)[1] for omega in (32, 64)]
+    check(abs(fast[1][0] / fast[0][0] - 1) < 0.1 and 1.7 < fast[1][1] / fast[0][1] < 2, fast)
+
+
 def test_small_oscillation():
     """The limit of linear response: G'' over the frequency is Enskog's viscosity of elastic grains. Both engines."""
     scene = """{flow: usf, phi: 0.2, particles: 500, collision: {e: 1}, start: {temperature: 30}, shear_rate: "sin(t)",
@@ -137,10 +167,18 @@ def written(path):
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
 
 
+OSCILLATES = "temperature_in_time", "P_xy_in_time", "spin_z_in_time", "stress_over_strain"
+AGES = "autocorrelation_from_0", "autocorrelation_collisions_5", "displacement_from_5", "displacement_collisions_0"
+
+
 def test_an_interrupted_run_resumes_to_the_same_bits():
-    for engine in "md", "dsmc":
-        scene = (OSCILLATION % (5, 5)).replace("engine: dsmc", "engine: " + engine).replace("{e: 0.8}", "{e: 0.8, beta: 0.3}")
-        scene += "shear_steps: 40\nparticles: 400\nrun: {duration: 20, replicas: 2}\noutput: {checkpoint_every: 0.02}\n"
+    """Oscillation, and a cooling gas with functions of two times: its intervals have many parts, in which it is stopped."""
+    oscillates = (OSCILLATION % (5, 5)).replace("{e: 0.8}", "{e: 0.8, beta: 0.3}") + "shear_steps: 40\nrun: {duration: 20, replicas: 2}\n"
+    cools = """{flow: hcs, engine: dsmc, phi: 0.1, collision: {e: 0.8}, measure: [rheology, diffusion],
+        dsmc: {particles: 5000}, run: {duration: 500, replicas: 2}, """
+    for gas, engine, names in [(oscillates, engine, OSCILLATES) for engine in ("md", "dsmc")] + [(cools, e, AGES) for e in ("md", "dsmc")]:
+        scene = gas.replace("engine: dsmc", "engine: " + engine)
+        scene += "particles: 4000, output: {checkpoint_every: 0.02}}\n" if gas is cools else "particles: 400\noutput: {checkpoint_every: 0.02}\n"
         for left in glob.glob("cut.*"):
             os.remove(left)
         check(run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=scene).code == 0, engine)
@@ -160,7 +198,7 @@ def test_an_interrupted_run_resumes_to_the_same_bits():
             check(process.returncode == 130, process.returncode, err)
             cuts += 1
         check(cuts > 0 and process.returncode == 0, cuts, err)
-        for name in "temperature_in_time", "P_xy_in_time", "spin_z_in_time", "stress_over_strain":
+        for name in names:
             one, other = (curve(path, name) for path in ("whole.h5", "cut.h5"))
             check(all(np.array_equal(a, b, equal_nan=True) for a, b in zip(one[:3], other[:3])), engine, name)
 

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Self-diffusion: grains that keep a known fraction of their velocity from step to step have known correlations and
  * displacements, under shear and through the boundaries of small boxes, two species apart, at lags up to the
- * longest; a planted long-time tail is found; an elastic dilute gas has the coefficient of Chapman and Enskog, also
+ * longest; so have those whose C_y becomes C_x, and grains that cool; both engines have the theory's tensor under
+ * shear; a planted long-time tail is found; an elastic dilute gas has the coefficient of Chapman and Enskog, also
  * in a box far shorter than its free paths, a dense one the published coefficient. */
 #include <stdio.h>
 
 #include "curve_test.h"
+#include "graingas.h"
 #include "measure/long_time_tail.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
 
 #define STEP 0.2
 static const double keep[2] = {0.9, 0.8};
+static double tilt; /* the part of C_y that is taken from C_x in a step */
 
 /* Each step: everything moves by C dt (and with the flow), then C = keep C + noise; the image of the box above is
  * displaced further. */
@@ -19,7 +21,7 @@ static void walk(gg_snapshot *s, gg_rng *r, int sample)
 {
   const double *L = s->model->box, rate = s->model->shear_rate;
   s->elapsed = STEP;
-  if (sample == 0) s->offset = 0.3 * L[0];
+  if (sample == 0) s->offset = rate != 0 ? 0.3 * L[0] : 0;
   if (sample) s->offset += rate * L[1] * STEP, s->offset -= L[0] * floor(s->offset / L[0]);
   for (size_t i = 0; i < s->n; i++) {
     double share = keep[gg_snapshot_species(s, i)], step[3] = {0, 0, 0}, layers;
@@ -31,10 +33,12 @@ static void walk(gg_snapshot *s, gg_rng *r, int sample)
     for (int a = 0; a < 3; a++) s->r[a][i] += step[a];
     layers = floor(s->r[1][i] / L[1]);
     s->r[0][i] -= layers * s->offset;
+    const double taken = sample ? tilt * s->c[1][i] : 0;
     for (int a = 0; a < 3; a++) {
       s->r[a][i] -= L[a] * floor(s->r[a][i] / L[a]);
       if (sample) s->c[a][i] = share * s->c[a][i] + sqrt(1 - share * share) * gg_common_rng_normal(r);
     }
+    s->c[0][i] -= taken;
   }
 }
 
@@ -77,6 +81,89 @@ static void walkers_have_their_known_correlations(void **state)
       }
     gg_measure_curves_clear(&list);
   }
+}
+
+/* C_x loses a part of C_y at each step: <C_x(t)C_y(0)> = k^j p - tilt j k^(j-1) after j steps, <C_y(t)C_x(0)> = k^j p,
+ * with p = -tilt k/(1 - k^2); sums of both, the first term by half, are the mixed coefficients. */
+static void shear_makes_mixed_components(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.2, -1, 1000, 1);
+  m.shear_rate = 0.7;
+  tilt = 0.05;
+  gg_curves list = ct_curves(&gg_measure_diffusion, &m, 4000, walk, 97);
+  const double k = keep[0], p = -tilt * k / (1 - k * k), later = STEP * (p * (0.5 + k / (1 - k)));
+  const double expected[2] = {later - STEP * tilt / ((1 - k) * (1 - k)), later};
+  static const char *const names[2] = {"velocity_autocorrelation_Cx_Cy", "velocity_autocorrelation_Cy_Cx"};
+  tilt = 0;
+  for (int i = 0; i < 2; i++) {
+    gg_curve_number D = ct_number(ct_find(&list, names[i]), "diffusion_green_kubo");
+    ct_expect(names[i], D.value, D.error, expected[i], 0.3);
+  }
+  gg_curve_number D = ct_number(ct_find(&list, "displacement_product_xy"), "diffusion_einstein");
+  ct_expect("displacement_product_xy", D.value, D.error, (expected[0] + expected[1]) / 2, 0.3);
+  gg_measure_curves_clear(&list);
+}
+
+/* Velocities in units of v_0 keep a fraction in a step of int v_0 dt = STEP, while v_0 falls to FALL of itself. Every
+ * sixteen steps all velocities are made larger, and times shorter. */
+#define FALL 0.97
+static double v_0 = 1, scaled = 1;
+static void walk_in_cooling_gas(gg_snapshot *s, gg_rng *r, int sample)
+{
+  if (sample == 0) v_0 = scaled = 1;
+  walk(s, r, sample); /* velocities in units of v_0, of variance 1 */
+  v_0 *= sample ? FALL : 1;
+  s->elapsed = STEP * (1 - FALL) / log(1 / FALL) / v_0; /* path = time v v' ln(v/v')/(v - v') */
+}
+
+static void a_cooling_gas_is_stationary_in_its_own_time(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_HCS, 0.2, -1, 1000, 1);
+  assert_null(gg_measure_diffusion.refuses(&m));
+  gg_bins bins;
+  gg_snapshot s, seen;
+  gg_rng r = gg_common_rng_seed(98, 0);
+  const gg_observable *o = &gg_measure_diffusion;
+  void *self = o->create(&m, NULL);
+  assert_int_equal(gg_measure_snapshot_init(&s, &m, true, NULL), GG_OK);
+  assert_int_equal(gg_measure_snapshot_init(&seen, &m, true, NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, o->curves->bins(self), NULL), GG_OK);
+  for (size_t i = 0; i < s.n; i++) s.id[i] = seen.id[i] = (int64_t)i;
+  o->restart(self);
+  for (int k = 0; k < 4000; k++) {
+    if (k % 16 == 15) o->rescaled(self, 2), scaled *= 2;
+    walk_in_cooling_gas(&s, &r, k);
+    seen.elapsed = s.elapsed / scaled;
+    for (size_t i = 0; i < s.n; i++)
+      for (int a = 0; a < 3; a++)
+        seen.r[a][i] = s.r[a][i], seen.c[a][i] = s.c[a][i] * v_0 * scaled * sqrt(m.temperature0);
+    o->curves->add_snapshot(self, &seen, gg_statistics_bins_sample(&bins));
+    gg_statistics_bins_commit(&bins);
+  }
+  const gg_bins *of_run[] = {&bins};
+  gg_curves list = {.model = &m};
+  assert_int_equal(gg_measure_curves_estimate(of_run, 1, o->curves->of_bins, self, o->name, 0, &list, NULL), GG_OK);
+  const gg_curve *d = ct_find(&list, "displacement_squared_y");
+  assert_true(fabs(d->x[10] - 10 * STEP) < 0.05 * STEP); /* T scatters by 3 % */
+  assert_true(ct_chi2(d, 1, 34, squared, &keep[0]) < 3.5);
+  for (int a = 0; a < 3; a++) {
+    char name[64];
+    snprintf(name, sizeof name, "velocity_autocorrelation_C%c", "xyz"[a]);
+    const gg_curve *c = ct_find(&list, name);
+    gg_curve_number D = ct_number(c, "diffusion_green_kubo");
+    const double expected = STEP * (0.5 + keep[0] / (1 - keep[0])) * sqrt(m.temperature0);
+    ct_expect(name, D.value, D.error, expected, 0.4 * expected);
+    snprintf(name, sizeof name, "displacement_squared_%c", "xyz"[a]);
+    D = ct_number(ct_find(&list, name), "diffusion_einstein");
+    ct_expect(name, D.value, D.error, STEP * (0.5 + keep[0] / (1 - keep[0])), 0.2);
+  }
+  gg_measure_curves_clear(&list);
+  gg_statistics_bins_clear(&bins);
+  gg_measure_snapshot_clear(&s);
+  gg_measure_snapshot_clear(&seen);
+  o->destroy(self);
 }
 
 /* The tail beyond t is the sum over the modes of the box. If it is planted on D(t) without noise, the fit finds D
@@ -244,10 +331,42 @@ static void box_shorter_than_free_paths(void **state)
   gg_result_free(r);
 }
 
+/* Under shear Monte Carlo has the tensor that follows from the measured stress, D_xy and D_yx apart, to the per cent or
+ * three by which second Sonine approximations differ from first ones; half the slope of <dx dy> is the mean of both. */
+static void sheared_monte_carlo_has_the_tensor_of_theory(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.engine = GG_DSMC, s.flow = GG_USF, s.phi = 0.05, s.dsmc.particles = 4000;
+  for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.8;
+  s.run.collisions = 1000;
+  s.measure |= GG_MEASURE_DIFFUSION;
+  gg_result *r = ct_run(s);
+  static const char *const names[] = {"Cx", "Cy", "Cz", "Cx_Cy", "Cy_Cx"};
+  static const double sight[] = {0.12, 0.12, 0.12, 0.2, 0.4};
+  gg_curve_number D[5];
+  for (int a = 0; a < 5; a++) {
+    char name[64];
+    snprintf(name, sizeof name, "velocity_autocorrelation_%s", names[a]);
+    const gg_curve *c = ct_find(&r->curves, name);
+    D[a] = ct_number(c, "diffusion_green_kubo");
+    const double expected = ct_number(c, "diffusion_first_sonine").value;
+    ct_expect(names[a], D[a].value, hypot(D[a].error, 0.01 * expected), expected, sight[a] * fabs(expected));
+  }
+  assert_true(D[4].value - D[3].value > 20 * hypot(D[3].error, D[4].error)); /* no symmetry */
+  gg_curve_number xy = ct_number(ct_find(&r->curves, "displacement_product_xy"), "diffusion_einstein");
+  ct_expect("half the slope of <dx dy>", xy.value, hypot(xy.error, hypot(D[3].error, D[4].error) / 2),
+            (D[3].value + D[4].value) / 2, 0.2 * fabs(xy.value));
+  gg_result_free(r);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(walkers_have_their_known_correlations),
+      cmocka_unit_test(shear_makes_mixed_components),
+      cmocka_unit_test(a_cooling_gas_is_stationary_in_its_own_time),
+      cmocka_unit_test(sheared_monte_carlo_has_the_tensor_of_theory),
       cmocka_unit_test(planted_tail),
       cmocka_unit_test(lacking_of_boxes),
       cmocka_unit_test(dilute_gas),

@@ -31,7 +31,7 @@ ROOMS = {
     "measure": (36, """
         src/measure/grain_snapshot.c src/measure/cell_frame.c src/measure/cell_frame.c src/measure/cell_means.c
         src/measure/collisions.c src/measure/curve.c src/measure/diffusion.c
-        src/measure/diffusion_coefficient.c src/measure/free_flight.c src/measure/histogram.c
+        src/measure/diffusion_coefficient.c src/measure/displacement.c src/measure/two_times.c src/measure/free_flight.c src/measure/histogram.c
         src/measure/impact_speed.c src/measure/local_distributions.c src/measure/local_frame.c
         src/measure/long_time_tail.c src/measure/mesh.c src/measure/orientation.c src/measure/pair_correlation.c
         src/measure/pairs.c src/measure/pairs.h src/measure/profiles.c src/measure/rheology.c

@@ -106,7 +106,7 @@ SLIPS = [
     ("src/measure/rheology.c", "r->memory.log2_scale += «log2(in->velocity_factor) ¦ 0»;", "T of a cooling gas in the rescaled unit"),
     ("src/measure/curve.c", "list->samples = «(p->blocks - (without != NULL)) * p->per_block ¦ p->blocks * p->per_block»;",
      "a left out block counts"),
-    ("src/measure/diffusion.c", "rate * (from.y + «0.5 * move.y ¦ 0 * move.y» - 0.5 * b->edge[1]) * dt;",
+    ("src/measure/displacement.c", "rate * (from.y + «0.5 * move.y ¦ 0 * move.y» - 0.5 * b->edge[1]) * dt;",
      "displacements by the flow at the old height"),
     ("src/measure/collisions.c", "c.x += rate * m->height[«which ¦ 0»];", "laboratory paths by the first grain's height"),
     ("src/measure/collisions.c", "if («flights_count(d, m->species[i]) ¦ true») add_flights(d, m, i);",
