@@ -99,7 +99,7 @@ void gg_common_model_at(gg_model *m, double T)
 
 bool gg_common_model_is_turned(const gg_model *m)
 {
-  bool turned = m->bath.turns;
+  bool turned = m->turns;
   for (int o = 0; o < gg_pairs_of(m->n_species); o++) turned |= m->tangential_kick[o] != 0;
   return turned;
 }
@@ -108,7 +108,7 @@ bool gg_common_model_is_turned(const gg_model *m)
  * friction they may grow for ever. Normal kicks or another source of energy keep the gas warm. */
 static bool kicks_fade(const gg_model *m)
 {
-  bool fade = m->kicks && m->rule != GG_SMOOTH && m->shear_rate == 0 && !m->walled && !m->bath.on;
+  bool fade = m->kicks && m->rule != GG_SMOOTH && m->shear_rate == 0 && !m->walled && !m->bath.on && !m->turns;
   for (int o = 0; o < gg_pairs_of(m->n_species); o++) fade &= m->normal_kick[o] == 0;
   return fade;
 }
@@ -137,7 +137,7 @@ bool gg_common_model_balances(const gg_model *m)
 {
   bool loses = walls_lose(m) || m->bath.drag[0] > 0, held = true;
   for (int i = 0; i < m->n_species; i++) {
-    held &= m->bath.torque[i] == 0 || is_held(m, i);
+    held &= m->torque[i] == 0 || is_held(m, i);
     for (int j = 0; j < m->n_species; j++) loses |= gg_common_pair_loses(m, i, j);
   }
   return held && !kicks_fade(m) && (loses || !(gg_flow_is_sheared(m->flow) || gg_model_is_injected(m)));
@@ -246,7 +246,7 @@ void gg_common_model_set_start(gg_model *m, double temperature)
   /* With a restitution law, temperature and mean impact speed depend on each other. */
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = guess_unbathed_temperature(m);
-    if (m->bath.on || (m->kicks && !m->walled))
+    if (m->bath.on || ((m->kicks || m->turns) && !m->walled))
       m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
     if (temperature != GG_AUTO) m->temperature0 = temperature;
     gg_common_model_at(m, m->temperature0);

@@ -72,7 +72,7 @@ static injection injection_of(const gg_model *m)
   static const double friction = 0.3; /* of a spin, per collision */
   injection in = {.rate = gg_common_model_collision_rate(m, 1)};
   for (int i = 0; i < m->n_species; i++) {
-    const double torque = m->bath.torque[i], Km = m->inertia[i] * m->mass[i];
+    const double torque = m->torque[i], Km = m->inertia[i] * m->mass[i];
     in.torque = fmax(in.torque, Km * fabs(torque));
     in.turning += m->fraction[i] * Km * torque * torque / (friction * in.rate);
     for (int j = 0; j < m->n_species; j++) {

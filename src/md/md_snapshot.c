@@ -31,12 +31,12 @@ static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, 
          c = gg_scale(e->k.scale, gg_md_velocity(e, e->falls, g, e->k.now));
   c.x -= e->model.shear_rate * (r.y - 0.5 * e->box.edge[1]);
   if (positions) into_box(e, &r);
+  const gg_vec none = {0, 0, 0}, s = e->spin ? gg_md_spin(e, i) : none;
   for (int a = 0; a < 3; a++) {
     out->r[a][slot] = gg_along(&r, a);
     out->c[a][slot] = gg_along(&c, a);
-    if (e->spin) out->s[a][slot] = gg_along(&e->spin[i], a);
+    out->s[a][slot] = gg_along(&s, a);
   }
-  if (e->model.bath.turns) out->s[2][slot] += gg_md_turned(e, gg_md_species_of(g));
   out->species[slot] = (uint8_t)gg_md_species_of(g);
   out->id[slot] = e->id[i];
 }

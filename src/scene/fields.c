@@ -274,7 +274,7 @@ const gg_field gg_scene_species_fields[] = {
     {"drag", GG_FIELD_NUMBER, offsetof(gg_species, drag), SMALL, LARGE, .by_default = 1,
      .doc = "drag of the bath on this species, in units of bath.drag", .thermostat = GG_BATH},
     {"torque", GG_FIELD_NUMBER, offsetof(gg_species, torque), -LARGE, LARGE, .unit = "mass velocity^2",
-     .doc = "constant torque about z on each grain", .when = GG_BIT(GG_IF_ROUGH) | GG_BIT(GG_IF_UNWALLED)},
+     .doc = "constant torque about z on each grain", .when = GG_BIT(GG_IF_ROUGH)},
     {0},
 };
 
@@ -380,7 +380,7 @@ bool gg_scene_has_torque(const gg_scene *s)
   bool torque = false, rough = false;
   for (int i = 0; i < s->n_species; i++) torque |= s->species[i].torque != 0;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) rough |= gg_scene_pair_rule(s, p) != GG_SMOOTH;
-  return torque && rough && !gg_flow_is_walled(s->flow);
+  return torque && rough;
 }
 
 int gg_scene_field_pair(const gg_field *f)

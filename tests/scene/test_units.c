@@ -136,7 +136,7 @@ static int physical(const gg_model *m, bool backward, double x[MOST], const char
     PUT("diameter", m->diameter[i] * L), PUT("mass", m->mass[i] * M), PUT("inertia", m->inertia[i]);
     PUT("grains", (double)m->n_of[i]);
     PUT("drag", m->bath.drag[i] / t), PUT("noise", m->bath.noise[i] * v * v / t);
-    PUT("torque", m->bath.torque[i] * v / t);
+    PUT("torque", m->torque[i] * v / t);
     PUT("spin_drag", m->bath.spin_drag[i] / t), PUT("spin_noise", m->bath.spin_noise[i] * v * v / t);
     for (int l = 0; l <= k; l++) {
       const int j = backward ? m->n_species - 1 - l : l, o = gg_pair(i, j);
