@@ -89,8 +89,8 @@ typedef struct gg_model {
   double chi_slope;               /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
   gg_contact_value contact_value; /* which chi is, for other densities than phi */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
-  double normal_kick[GG_PAIRS], tangential_kick[GG_PAIRS]; /* D and D_t of common/collision.h */
-  bool kicks;                                              /* some pair has a kick */
+  double kick[GG_N_KICKS][GG_PAIRS]; /* D and D_t of common/collision.h */
+  bool kicks;                        /* some pair has a kick */
   /* Law of restitution between grains (name NULL: none), or formulas and tables by_speed of e, beta and mu, whose name
    * is "e(v)". With one, `e`, `beta`, `mu` and `contact` are those at the mean impact speed of some temperature
    * (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */

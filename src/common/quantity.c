@@ -201,7 +201,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_MEAN_SPIN, m->boltzmann,
        "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},
       {GG_NEEDS_LAG, !m->turns, "without a torque spins roll with the flow; see graingas theory"},
-      {GG_NEEDS_LAG, m->tangential_kick[0] != 0, "kicks along the surfaces have a stress of their own"},
+      {GG_NEEDS_LAG, m->kick[GG_TANGENTIAL_KICK][0] != 0, "kicks along the surfaces have a stress of their own"},
       {GG_NEEDS_LAG, m->n_species > 1, "measured in one species"},
       {GG_NEEDS_TRANSFER, m->boltzmann, "no collisional transfer in the Boltzmann limit"},
       {GG_NEEDS_VOLUME, m->boltzmann, "an ideal gas in the Boltzmann limit: Z = 1 by definition"},

@@ -77,11 +77,13 @@ static injection injection_of(const gg_model *m)
     in.turning += m->fraction[i] * Km * torque * torque / (friction * in.rate);
     for (int j = 0; j < m->n_species; j++) {
       const int o = gg_pair(i, j);
-      const double mr = 1 / gg_inverse_mr(&m->contact[i][j]), D = m->normal_kick[o], Dt = m->tangential_kick[o];
+      const double mr = 1 / gg_inverse_mr(&m->contact[i][j]);
       const double part = 0.5 * m->fraction[i] * m->fraction[j];
-      in.D = fmax(in.D, fmax(D, fabs(Dt)));
-      in.steady += part * 2 * mr * (D * D + Dt * Dt);
-      in.speedy += part * 2 * mr * D * m->e[o] * sqrt(M_PI / (2 * mr));
+      for (int k = 0; k < GG_N_KICKS; k++) {
+        in.D = fmax(in.D, fabs(m->kick[k][o]));
+        in.steady += part * 2 * mr * m->kick[k][o] * m->kick[k][o];
+      }
+      in.speedy += part * 2 * mr * m->kick[GG_NORMAL_KICK][o] * m->e[o] * sqrt(M_PI / (2 * mr));
     }
   }
   return in;

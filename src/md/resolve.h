@@ -87,7 +87,7 @@ GG_INLINE gg_contact gg_md_own_contact(gg_md *e, const gg_contact *contact, bool
   gg_contact at = *contact;
   const gg_restitution_law *law = &e->model.law;
   const double inside = ldexp(1 / e->k.scale, e->k.power);
-  at.kn *= inside, at.kt *= inside;
+  for (int k = 0; k < GG_N_KICKS; k++) at.kick[k] *= inside;
   if (!law->name || treated) return at;
   const int pair = gg_pair(a, b);
   const double speed = ldexp(gn * e->k.scale, -e->k.power), u = law->e ? 0 : e->tables->scale[pair] * speed;

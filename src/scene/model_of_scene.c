@@ -216,10 +216,8 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 {
   for (int o = 0; o < gg_pairs_of(m->n_species); o++)
     m->e[o] = s->collision.e[o], m->beta[o] = s->collision.beta[o], m->mu[o] = s->collision.mu[o];
-  for (int o = 0; o < gg_pairs_of(m->n_species); o++) {
-    m->normal_kick[o] = gg_units_velocity(m->unit, s->collision.normal_kick[o]);
-    m->tangential_kick[o] = gg_units_velocity(m->unit, s->collision.tangential_kick[o]);
-  }
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++)
+    for (int k = 0; k < GG_N_KICKS; k++) m->kick[k][o] = gg_units_velocity(m->unit, s->collision.kick[k][o]);
   m->contact_value = s->contact_value;
   gg_common_model_set_pairs(m);
 }

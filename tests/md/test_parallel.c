@@ -50,7 +50,8 @@ static gg_model model_of(int k)
   if (cases[k].scene.flow == GG_HSS) s.thermostat = GG_INJECTION;
   s.start.spin = injected[k].spin;
   for (int p = 0; p < GG_PAIRS; p++)
-    s.collision.normal_kick[p] = injected[k].normal_kick, s.collision.tangential_kick[p] = injected[k].tangential_kick;
+    s.collision.kick[GG_NORMAL_KICK][p] = injected[k].normal_kick,
+    s.collision.kick[GG_TANGENTIAL_KICK][p] = injected[k].tangential_kick;
   if (cases[k].species > 1) {
     s.n_species = 2;
     s.species[0].fraction = s.species[1].fraction = 0.5;

@@ -20,7 +20,8 @@ static gg_scene scene_of(gg_engine_kind kind, double phi, double e, double beta,
 static void set_kicks(gg_scene *s, double normal, double tangential)
 {
   for (int p = 0; p < GG_PAIRS; p++)
-    s->collision.normal_kick[p] = normal * (1 + 0.1 * p), s->collision.tangential_kick[p] = tangential;
+    s->collision.kick[GG_NORMAL_KICK][p] = normal * (1 + 0.1 * p),
+    s->collision.kick[GG_TANGENTIAL_KICK][p] = tangential;
 }
 
 static gg_model model_of(const gg_scene *s)
@@ -153,7 +154,7 @@ static void check_steady(gg_engine_kind kind, double phi, int64_t n, int block, 
 {
   const double D = 0.1;
   gg_scene s = scene_of(kind, phi, e, -1, n);
-  for (int p = 0; p < GG_PAIRS; p++) s.collision.normal_kick[p] = D;
+  for (int p = 0; p < GG_PAIRS; p++) s.collision.kick[GG_NORMAL_KICK][p] = D;
   const gg_model m = model_of(&s);
   gg_engine *g = engine_of(&m, kind, 3);
   lab_mean T = {0}, c = {0};
