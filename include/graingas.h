@@ -1596,11 +1596,11 @@ typedef enum gg_catalogue {
 typedef struct gg_entry { /* NULL or "": not in this table */
   const char *name, *doc, *unit, *citation, *assumptions;
   const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "ends", "file", "species" */
-  char allowed[256];   /* "a number from 0 to 1" */
+  char allowed[256];   /* of a key: "a number from 0 to 1"; of a flow: its thermostats */
   char value[4096];    /* in force in the scene; without a scene the default, "": none */
   int given;           /* non-zero: given in the scene */
   const char *formula; /* of a quantity: its definition, as LaTeX has it */
-  const char *missing; /* of a quantity: why the scene has no mean of it; NULL: it has one, or no scene is given */
+  const char *missing; /* of a quantity or an observable: why the scene cannot have it; NULL: it can, or none is given */
   const char *answers; /* of a theory: names of quantities, separated by blanks */
   char symbol[48];     /* of a quantity, LaTeX: "T", "\\kappa_{rh}"; "" if user-defined */
   int headline;        /* of a quantity: non-zero if run.relative_error applies to it in the scene */

@@ -109,6 +109,10 @@ name_missing() {
       suggest 6 "Arch: sudo pacman -S"
       ;;
     esac
+    if command -v apt-get >/dev/null && command -v dpkg-deb >/dev/null; then
+      echo "  without root: scripts/packages-here ~/graingas-packages ./quickstart unpacks them into that folder (400 MB)"
+    fi
+    echo "  or use a static command that another machine has made: scripts/release static (docs/howto/install.md)"
     case $rows in *Random123*)
       echo "  Random123 is headers alone: where it is no package, unpack github.com/DEShawResearch/random123 and set"
       echo "  CPPFLAGS=-I<its folder include>"

@@ -43,7 +43,7 @@ def other_places(app, name, source):
     if not os.path.exists(app.env.doc2path(name)) or not app.env.doc2path(name).endswith(".md"):
         return
     up = "../" * name.count("/")
-    for pattern, page in ((r"README\.md", "index.md"), (r"examples", "site/examples.md"), (r"docs/(?:howto|reference|explanation)", "index.md"),
+    for pattern, page in ((r"README\.md", "index.md"), (r"\.github/SECURITY\.md", "SECURITY.md"), (r"validation/README\.md", "docs/validation.md"), (r"examples", "site/examples.md"), (r"docs/(?:howto|reference|explanation)", "index.md"),
                           (r"python/notebooks", "site/notebooks.md"), (r"include/graingas\.h", "site/c/index.rst"), (r"examples/(\w+)\.(yaml|c)", r"site/examples.md#\1\2")):
         source[0] = re.sub(rf"\]\((?:\.\./)*{pattern}\)", rf"]({up}{page})", source[0])
 

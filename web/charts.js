@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The diagram beside the box: the history of the live gas, the means so far, the lines of theories. */
 import { inLog } from "./chart.js";
-import { DSMC, GHOSTS, MD, SHARE } from "./colours.js";
+import { DSMC, GHOSTS, MD } from "./colours.js";
 import { isWalled, sheared } from "./flows.js";
 import { now } from "./gas.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
-import { chosenTheories, error, lineOf, mean, theoriesWith, titleOf } from "./theories.js";
-import { withError, number, theoryName } from "./words.js";
+import { chosenTheories, error, lineOf, mean, settled, theoriesWith, titleOf } from "./theories.js";
+import { withError, number, quantityName, theoryName } from "./words.js";
 
-export const CHARTS = ["temperature", "speeds", "velocities", "stress", "distance", "profiles"];
+export const CHARTS = ["temperature", "speeds", "velocities", "stress", "distance", "profiles", "errors"];
 const hasRate = (values) => sheared(values) || values.flow === "couette";
 export const timeUnit = (values) => (hasRate(values) ? "1/γ" : values.phi === 0 ? "1/(n d² v₀)" : "d/v₀");
 /* Without excluded volume the mean free path takes the place of d. */
@@ -21,7 +21,7 @@ export const spinUnit = (values) => (hasRate(values) ? "γ" : "v₀/d");
 const MARKS = ["cross", "plus", "dash"];
 
 export function showChart(chart, state) {
-  const kinds = { temperature, speeds, velocities, stress, distance, profiles };
+  const kinds = { temperature, speeds, velocities, stress, distance, profiles, errors };
   chart.update(kinds[state.chart](state));
 }
 
@@ -87,7 +87,7 @@ function steadyLines(means, x, rough, values) {
     ["dsmc", DSMC],
   ])
     for (const name of both) {
-      const part = means[engine] && means[engine].results,
+      const part = settled(means, engine),
         m = mean(part, name),
         e = error(part, name) || 0;
       if (Number.isFinite(m)) out.push({ x: across, y: [m, m], band: [e, e], colour, width: 1, name: `mean ${engine} ${name}`, label: t("meanOf", { name: t(engine) }), quiet: true });
@@ -201,8 +201,8 @@ function stress({ means }) {
     chosen.forEach((name, i) =>
       add(means.theory[name], (0.36 * (i + 0.5)) / chosen.length - 0.18, { name, colour: lineOf(name).colour, shape: MARKS[i % MARKS.length], label: titleOf(means, name) }),
     );
-    add(means.md && means.md.results, -0.26, { name: "md", colour: MD, shape: "circle", label: t("md") });
-    add(means.dsmc && means.dsmc.results, 0.26, { name: "dsmc", colour: DSMC, shape: "square", label: t("dsmc") });
+    add(settled(means, "md"), -0.26, { name: "md", colour: MD, shape: "circle", label: t("md") });
+    add(settled(means, "dsmc"), 0.26, { name: "dsmc", colour: DSMC, shape: "square", label: t("dsmc") });
   }
   const { frame } = now,
     s = frame && frame.md && frame.md.kineticStress;
@@ -234,24 +234,27 @@ function distance(state) {
 }
 
 /* Between walls: T and the solid fraction over their means, from the lower wall to the upper; lines for md, marks
- * for dsmc. Left out: the layers at the walls that centres of grains cannot reach. */
+ * for dsmc, each in the engine's colour; φ is dashed, its marks are diamonds. Left out: the layers at the walls that centres of grains cannot reach. */
 function profiles({ means }) {
   const series = [];
-  for (const engine of ["md", "dsmc"]) {
+  for (const [engine, colour] of [
+    ["md", MD],
+    ["dsmc", DSMC],
+  ]) {
     const curves = (means && means[engine] && means[engine].curves) || {},
       share = curves.profile_solid_fraction;
     if (!share) continue;
     const most = average(share.value),
       inside = share.x.map((_, i) => i).filter((i) => share.value[i] > most / 2);
-    for (const [name, symbol, colour, shape] of [
-      ["profile_temperature", "T", DSMC, "circle"],
-      ["profile_solid_fraction", "φ", SHARE, "diamond"],
+    for (const [name, symbol, dash, shape] of [
+      ["profile_temperature", "T", "", "square"],
+      ["profile_solid_fraction", "φ", "6 3", "diamond"],
     ]) {
       const { x, value, stderr } = curves[name] || { x: [], value: [], stderr: [] },
         all = average(inside.map((i) => value[i])),
         of = (list) => inside.map((i) => (list[i] === null ? NaN : list[i] / all)),
         errors = of(stderr).map((e) => e || 0),
-        look = engine === "md" ? { band: errors } : { error: errors, points: true, shape, hollow: true };
+        look = engine === "md" ? { band: errors, dash } : { error: errors, points: true, shape, hollow: true };
       if (all > 0) series.push({ name: `${engine} ${name}`, label: `${t(engine)}: ${symbol}`, colour, x: inside.map((i) => x[i]), y: of(value), ...look });
     }
   }
@@ -261,6 +264,35 @@ function profiles({ means }) {
     summary: series.length ? t("profilesTitle") : t("waiting"),
     x: { label: t("heightAxis"), symbol: "y" },
     y: { label: t("profilesAxis") },
+  };
+}
+/* How the error of a mean shrinks: over the collisions that it is of, on logarithmic axes, with a line of slope -1/2. */
+function errors(state) {
+  const { gas, quantity, means } = state,
+    series = [];
+  for (const [engine, colour, shape] of [
+    ["md", MD, "circle"],
+    ["dsmc", DSMC, "square"],
+  ]) {
+    const rows = ((gas.history.errors || {})[engine] || []).filter(({ e }) => e[quantity] > 0);
+    if (rows.length) series.push({ name: `error ${engine}`, label: t(engine), colour, shape, points: true, x: rows.map(({ c }) => c), y: rows.map(({ e }) => e[quantity]) });
+  }
+  const longest = [...series].sort((a, b) => b.x.length - a.x.length)[0];
+  if (longest && longest.x.length > 1) {
+    const { x, y } = longest,
+      from = x[0],
+      to = x[x.length - 1],
+      middle = Math.exp(x.reduce((sum, c, i) => sum + Math.log(y[i] * Math.sqrt(c)), 0) / x.length);
+    series.push({ name: "half", label: t("slopeHalf"), colour: "#777777", width: 1.2, reads: false, x: [from, to], y: [middle / Math.sqrt(from), middle / Math.sqrt(to)] });
+  }
+  const one = ((means && means.comparison) || []).find((row) => row.quantity === quantity),
+    z = one && settled(means, "md") && settled(means, "dsmc") ? one.md_dsmc_z : NaN;
+  return {
+    title: Number.isFinite(z) ? t("errorsZ", { quantity: quantityName(quantity), z: `${z < 0 ? "−" : "+"}${Math.abs(z).toFixed(1)}` }) : t("errorsOf", { quantity: quantityName(quantity) }),
+    series,
+    summary: summaryOf(state, quantity),
+    x: { label: t("collisionsAGrain"), symbol: t("collisionsAGrain"), log: true },
+    y: { label: t("errorAxis"), log: true },
   };
 }
 const average = (list) => {

@@ -3,7 +3,7 @@
 export const DARK = [16, 21, 26];
 
 /* Blue over red to yellow, of growing brightness and so distinguishable without colours (after plasma), on a dark
- * ground; and from blue over light grey to orange, for values with two signs. */
+ * ground; and from violet over light grey to green, for values with two signs: blue and orange are the engines'. */
 const MAPS = {
   rising: [
     [76, 84, 232],
@@ -13,11 +13,11 @@ const MAPS = {
     [255, 238, 90],
   ],
   sided: [
-    [40, 120, 235],
-    [120, 170, 225],
+    [170, 80, 215],
+    [195, 155, 225],
     [225, 228, 230],
-    [240, 165, 90],
-    [235, 105, 20],
+    [130, 205, 140],
+    [40, 165, 75],
   ],
 };
 export const mapOf = (by) => (by === "along" || by === "origin" ? "sided" : "rising");
@@ -33,10 +33,9 @@ export const rgb = (c) => `rgb(${c.join(",")})`;
 
 export const MD = "#0072B2",
   DSMC = "#C44E00",
-  SHARE = "#00785a" /* the solid fraction */,
   GHOSTS = ["#8aa4b8", "#a9b6c0", "#c4ccd2"];
 /* Colours of the students of a class; their number and that of the marks have no common factor: 42 pairs. */
-export const CLASS = ["#00785a", "#a3004c", "#8a6a00", "#6a3fa0", "#9a4a10", "#3d5a80"];
+export const CLASS = ["#00797d", "#b5179e", "#5a6e00", "#5b3fd6", "#8c2f1b", "#2b2d42"];
 /* Colours of theories, in the order in which they are drawn. */
 export const LINES = [
   { colour: "#00785a", dash: "8 4" },

@@ -259,10 +259,11 @@ export async function openEngines(make, options) {
     }
   }
 
-  /* The theories beside the results of sessions of the same scene; or a result file, by its path. */
+  /* The theories, or the one of that name, beside the results of sessions of the same scene; or a result file, by its
+   * path. */
   class Comparison {
-    constructor(scene) {
-      this.at = typeof scene === "string" ? withPath(scene, (at) => c._page_comparison_read(at)) : need(c._page_comparison(scene.at));
+    constructor(scene, theory = "") {
+      this.at = typeof scene === "string" ? withPath(scene, (at) => c._page_comparison_read(at)) : withPath(theory, (at) => c._page_comparison(scene.at, at));
     }
     take(session) {
       need(c._page_comparison_take(this.at, session.at));

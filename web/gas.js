@@ -5,6 +5,7 @@ import { isWalled } from "./flows.js";
 import { LESSONS, lessonOf, nearestLesson } from "./lessons.js";
 import { gather } from "./points.js";
 import { TemperatureHistory } from "./history.js";
+import { settled } from "./theories.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
 import { WorkerClient, workers } from "./worker_rpc.js";
@@ -27,16 +28,23 @@ async function unpack(id) {
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-/* Open both workers; the version of the first. Callers of the second, which measures, wait for it themselves. */
+/* Open all workers; the version of the first. Callers of the others wait for them themselves. */
 let wasm = null,
   source = "";
 export async function openWorkers() {
   wasm = await unpack("wasm");
   source = URL.createObjectURL(new Blob([await unpack("worker")], { type: "text/javascript" }));
-  workers.measure = new WorkerClient(source);
+  workers.measure = openAnother();
   workers.measure.onmeans = takeMeans;
-  workers.measure.request("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
-  return openLive();
+  const version = await openLive();
+  workers.evaluate = openAnother();
+  workers.evaluate.ontheories = takeTheories;
+  return version;
+}
+function openAnother() {
+  const worker = new WorkerClient(source);
+  worker.request("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
+  return worker;
 }
 async function openLive() {
   workers.live = new WorkerClient(source);
@@ -213,11 +221,16 @@ function unknownLesson(wrong) {
 
 /* ---- Means ---- */
 
+/* Theories that are not evaluated yet. */
+const NONE = { theory: {}, theories: {}, cooling: { time: [], T: {} }, done: false };
 let timer = 0,
   asking = false,
-  measuring = { job: 0, gas: 0 };
+  measuring = { job: 0, gas: 0 },
+  evaluating = { job: 0, gas: 0 },
+  measured = null,
+  known = NONE;
 
-/* Theories take a second: only the newest gas is measured, after the sliders rest. */
+/* Only the newest gas is measured, after the sliders rest. */
 export function requestMeans() {
   clearTimeout(timer);
   timer = setTimeout(async () => {
@@ -229,18 +242,43 @@ export function requestMeans() {
     if (player) return;
     asking = true;
     measuring = { job: workers.measure.count + 1, gas: gas.id };
+    evaluating = { job: workers.evaluate.count + 1, gas: gas.id };
+    measured = null;
+    known = NONE;
+    workers.evaluate.request("evaluate", { scene: gas.scene, sets: gas.sets }).catch(() => {}); /* `measure` gives the reason */
     try {
-      store.dispatch("means", { id: gas.id, means: await workers.measure.request("measure", { scene: gas.scene, sets: gas.sets }) });
+      measured = await workers.measure.request("measure", { scene: gas.scene, sets: gas.sets });
     } catch (e) {
-      store.dispatch("means", { id: gas.id, means: { failed: e.message, theory: {}, theories: {}, progress: {} } });
+      measured = failed(e.message);
     }
     asking = false;
+    showMeans();
   }, 300);
+}
+const failed = (why) => ({ failed: why, progress: {} });
+/* Means and theories come from two workers. */
+function showMeans() {
+  const { theory, theories, cooling, done } = known;
+  if (measured) store.dispatch("means", { id: measuring.gas, means: { ...measured, theory, theories, cooling, evaluated: done } });
 }
 function takeMeans(data) {
   if (data.id !== measuring.job || asking) return;
-  if (data.refused !== undefined) store.dispatch("means", { id: measuring.gas, means: { failed: data.refused, theory: {}, theories: {}, progress: {} } });
-  else store.dispatch("means", { id: measuring.gas, means: data.answer });
+  measured = data.refused !== undefined ? failed(data.refused) : data.answer;
+  recordErrors(store.state, measured);
+  showMeans();
+}
+function takeTheories(data) {
+  if (data.id !== evaluating.job || evaluating.gas !== measuring.gas) return;
+  known = data.refused !== undefined ? { ...known, done: true } : data.answer;
+  showMeans();
+}
+/* Keep the errors of the means over the collisions that they are of: the curve of the lesson on errors. */
+function recordErrors({ gas, player }, means) {
+  if (!gas || player || gas.id !== measuring.gas) return;
+  for (const engine of ["md", "dsmc"]) {
+    const results = settled(means, engine);
+    if (results) gas.history.addError(engine, (2 * means[engine].collisions) / means[engine].particles, results);
+  }
 }
 
 export async function reverse() {

@@ -13,6 +13,14 @@ export class TemperatureHistory {
     this.gap = 0.02;
     this.logarithmic = logarithmic;
     this.far = { x: [], y: [], gap: 0.01 };
+    this.errors = { md: [], dsmc: [] };
+  }
+  /* The standard errors of an engine's means over c collisions a grain; a row for each tenth more. */
+  addError(engine, c, results) {
+    const rows = this.errors[engine],
+      last = rows[rows.length - 1];
+    if (last && c < 1.1 * last.c) return;
+    rows.push({ c, e: Object.fromEntries(Object.entries(results).map(([name, one]) => [name, one && one.stderr])) });
   }
   /* The distance of the grains from their start, or from their twins, over collisions a grain. */
   addDistance(clock, distance) {

@@ -46,9 +46,16 @@ export const LESSONS = [
   }),
   lesson("enskog", "{flow: usf, phi: 0.3, particles: 1000, collision: {e: 0.7}}", {
     slider: "phi",
-    chart: "temperature",
-    quantity: "compressibility_factor",
+    chart: "stress",
+    quantity: "N1",
     colour: "since",
+    speed: 3,
+  }),
+  lesson("sure", "{flow: usf, phi: 0.01, particles: 1000, collision: {e: 0.9}}", {
+    slider: "particles",
+    chart: "errors",
+    quantity: "temperature",
+    colour: "along",
     speed: 3,
   }),
   lesson("clustering", "{flow: hcs, phi: 0.2, particles: 2000, collision: {e: 0.6}, aspect: [3, 3, 1]}", {

@@ -89,7 +89,7 @@ function listen() {
   on("slower", () => faster(-1));
   on("faster", () => faster(1));
   on("restart", () => (store.state.player ? goTo(0) : again()));
-  on("reseed", () => again({ "run.seed": String(1 + Math.floor(Math.random() * 999999)) }));
+  for (const id of ["reseed", "another"]) on(id, () => again({ "run.seed": String(1 + Math.floor(Math.random() * 999999)) }));
   on("reverse", () => reverse().then(() => say(t("reversed"))));
   on("keep", () => {
     keepPoint();
@@ -99,7 +99,7 @@ function listen() {
     clearKept();
     store.dispatch("forget");
   });
-  on("present", present);
+  for (const id of ["present", "leave"]) on(id, present);
   on("describe", () => say(describe()));
   for (const name of ["colour", "quantity", "language"]) on(name, () => store.look({ [name]: byId(name).value }), "change");
   on("chart-kind", () => store.look({ chart: byId("chart-kind").value }), "change");

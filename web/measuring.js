@@ -17,7 +17,38 @@ export function courseOfTheories(comparison) {
   return { cooling: { time: COOLING_TIMES, T } };
 }
 
-/* The means, in their own worker: a run of each engine in pieces, with the theories, until the scene's own end. */
+/* These take seconds: evaluated last. */
+const SLOW = ["enskog_hermite", "navier_stokes", "navier_stokes_hermite", "moments"];
+/* A theory that takes microseconds: a comparison of engines alone has it, too. */
+const QUICK = "haff1983";
+
+/* The theories of a scene, one by one, in a worker of their own: means do not wait for them. */
+export class Evaluating {
+  constructor(g, text, sets) {
+    this.g = g;
+    this.scene = sceneOf(g, text, sets);
+    this.names = g.catalogue("theories").map(({ name }) => name).sort((a, b) => SLOW.indexOf(a) - SLOW.indexOf(b));
+    this.found = { theory: {}, theories: {}, cooling: { time: COOLING_TIMES, T: {} } };
+  }
+  /* Evaluate the next theory; is it the last? */
+  goOn() {
+    const comparison = new this.g.Comparison(this.scene, this.names.shift());
+    try {
+      const { theory, theories } = comparison.document();
+      Object.assign(this.found.theory, theory);
+      Object.assign(this.found.theories, theories);
+      Object.assign(this.found.cooling.T, courseOfTheories(comparison).cooling.T);
+    } finally {
+      comparison.free();
+    }
+    return !this.names.length;
+  }
+  free() {
+    this.scene.free();
+  }
+}
+
+/* The means, in their own worker: a run of each engine in pieces, until the scene's own end. */
 export class Measuring {
   constructor(g, text, sets) {
     this.sessions = {};
@@ -41,11 +72,10 @@ export class Measuring {
   }
   compare(scene, g) {
     try {
-      this.comparison = new g.Comparison(scene);
+      this.comparison = new g.Comparison(scene, QUICK);
     } finally {
       scene.free();
     }
-    this.course = courseOfTheories(this.comparison);
   }
 
   begin(g, text, sets, engine, one) {
@@ -85,7 +115,7 @@ export class Measuring {
         progress[engine].lack = e.message;
       }
     }
-    return { ...this.comparison.document(), ...this.course, progress, refused: this.refused };
+    return { ...this.comparison.document(), progress, refused: this.refused };
   }
 
   free() {

@@ -7,7 +7,7 @@ import { CONTROLS, gridOf, rowOf, shownValue, symbolOf } from "./controls.js";
 import { lessonOf } from "./lessons.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
-import { chosenTheories, error, lineOf, mean, ranked } from "./theories.js";
+import { chosenTheories, error, lineOf, mean, ranked, settled } from "./theories.js";
 import { workers } from "./worker_rpc.js";
 import { quantityName, theoryName } from "./words.js";
 
@@ -25,16 +25,20 @@ function familyOf({ about }, row) {
   return JSON.stringify(values);
 }
 
-/* Is there something to keep: means with errors? */
+/* Is there something to keep? A mean with its error of each engine that runs: a point is a comparison. An engine that
+ * has ended without one is not waited for. */
 export function canKeep({ gas, means, player, quantity }) {
-  return !!gas && !player && !!means && ENGINES.some((engine) => Number.isFinite(error(means[engine] && means[engine].results, quantity)));
+  if (!gas || player || !means || !means.progress) return false;
+  const has = (engine) => Number.isFinite(error(settled(means, engine), quantity)),
+    running = ENGINES.filter((engine) => means.progress[engine]);
+  return running.some(has) && running.every((engine) => has(engine) || means.progress[engine].over);
 }
 export function keepPoint() {
   const { gas, means, slider } = store.state,
     row = rowOf(slider),
     point = { slider: row.name, x: shownValue(row, gas.about.values), seed: gas.about.values.run.seed, from: "" };
   for (const engine of ENGINES) {
-    const part = means[engine] && means[engine].results;
+    const part = settled(means, engine);
     point[engine] = Object.fromEntries(QUANTITIES.filter((q) => Number.isFinite(error(part, q))).map((q) => [q, [mean(part, q), error(part, q)]]));
   }
   point.family = familyOf(gas, row);
@@ -58,7 +62,7 @@ export async function drawLines() {
       text = row.put ? row.put(value, gas.about.values) : String(+value.toPrecision(6));
     let answers = {};
     try {
-      answers = (await workers.measure.request("theory", { scene: gas.scene, sets: { ...gas.sets, [row.key]: text } })).theory;
+      answers = (await workers.evaluate.request("theory", { scene: gas.scene, sets: { ...gas.sets, [row.key]: text } })).theory;
     } catch (e) {
       /* the flow rejects this value: no theory there */
     }
@@ -70,7 +74,7 @@ export async function drawLines() {
 }
 function wantsLines() {
   const { gas, means, player } = store.state;
-  if (!gas || player || !means || !hasPoints(store.state)) return false;
+  if (!gas || player || !means || !means.evaluated || !hasPoints(store.state)) return false;
   const line = store.state.lines[keyOf(store.state)];
   return !line || line.theory.length < line.x.length;
 }
@@ -99,10 +103,10 @@ export function showPoints(chart, state) {
   ]) {
     const kept = measuredOf(mine, engine, quantity);
     if (kept.x.length) series.push({ name: `${engine} kept`, label: t(engine), colour, shape, ...kept });
-    const part = means && means[engine] && means[engine].results,
+    const part = settled(means, engine),
       m = mean(part, quantity);
     if (Number.isFinite(m))
-      series.push({ name: `${engine} now`, label: t("measuredNow", { engine: t(engine) }), quiet: true, colour, points: true, shape, hollow: true, x: [shownValue(row, gas.about.values)], y: [m], error: [error(part, quantity) || 0] });
+      series.push({ name: `${engine} now`, label: t("measuredNow", { engine: t(engine) }), quiet: kept.x.length > 0, colour, points: true, shape, hollow: true, x: [shownValue(row, gas.about.values)], y: [m], error: [error(part, quantity) || 0] });
   }
   const known = series.flatMap((one) => one.x).filter(Number.isFinite);
   chart.update({

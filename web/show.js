@@ -141,6 +141,7 @@ function showLesson({ lesson, gas, slider, player, question }, before) {
   byId("question").textContent = lesson ? t(`lesson_${lesson}_question`) : player ? "" : question;
   parts.controls.pull(rowOf(slider).name, byId("main-control"));
   byId("reverse").hidden = lesson !== "reverse";
+  byId("another").hidden = lesson !== "sure";
   if (before.lesson !== lesson || before.question !== question || !before.gas) byId("more-controls").open = !lesson && !question;
 }
 
@@ -334,6 +335,7 @@ function showMyPoints(state) {
   byId("points").hidden = byId("points-row").hidden = byId("save-points-svg").hidden = !has_;
   byId("keep").hidden = !has_;
   byId("keep").disabled = !canKeep(state);
+  byId("keep").title = byId("keep").disabled ? t("keepWaits") : "";
   byId("save-points").disabled = byId("forget").disabled = !state.points.length;
   if (!has_) return;
   showPoints(parts.points, state);

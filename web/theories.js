@@ -21,6 +21,13 @@ const FEW = 2; /* drawn without a choice of the user */
 export const mean = (part, name) => (part && part[name] && Number.isFinite(part[name].mean) ? part[name].mean : NaN);
 export const error = (part, name) => (part && part[name] && Number.isFinite(part[name].stderr) ? part[name].stderr : NaN);
 
+/* The results of an engine that averages or has ended; undefined while it warms up. A stored result has no progress. */
+export function settled(means, engine) {
+  const part = means && means[engine],
+    p = means && means.progress && means.progress[engine];
+  return part && (!p || p.averaging || p.over) ? part.results : undefined;
+}
+
 export function ranked(names) {
   const rank = (name) => (FIRST.indexOf(name) + FIRST.length + 1) % (FIRST.length + 1);
   return [...names].sort((a, b) => rank(a) - rank(b));
@@ -35,11 +42,16 @@ export function chosenTheories(names) {
     { theories } = store.state;
   return theories ? all.filter((name) => theories.includes(name)) : all.slice(0, FEW);
 }
-/* A colour for every theory that has an answer for this gas. */
+/* The best known theories have the same line for every gas (grad and enskog are of different flows); the others share
+ * the lines that are left. */
+const FIXED = Object.fromEntries(FIRST.map((name, i) => [name, LINES[name === "grad" ? FIRST.indexOf("enskog") : i]]));
 export function lineOf(name) {
+  if (FIXED[name]) return FIXED[name];
   const known = store.state.means ? drawable(store.state.means) : [],
-    at = known.indexOf(name);
-  return LINES[(at < 0 ? Math.max(0, FIRST.indexOf(name)) : at) % LINES.length];
+    taken = known.map((one) => FIXED[one]),
+    left = LINES.filter((one) => !taken.includes(one)),
+    at = Math.max(0, known.filter((one) => !FIXED[one]).indexOf(name));
+  return (left.length ? left : LINES)[at % (left.length || LINES.length)];
 }
 export const drawable = (means) =>
   ranked([...new Set([...theoriesWith(means, ["temperature", "N1", "cooling_rate"]), ...Object.keys((means.cooling && means.cooling.T) || {})])]);

@@ -2,13 +2,14 @@
 /* The worker's side of the page: messages in, answers out. One worker shows the gas, another measures it. */
 import { openEngines } from "./engines.js";
 import { LiveGas, costOf } from "./live.js";
-import { Measuring, theoriesOf } from "./measuring.js";
+import { Evaluating, Measuring, theoriesOf } from "./measuring.js";
 import { Replay, readResult } from "./replay.js";
 
 let g = null,
   live = null,
   replay = null,
   measuring = null,
+  evaluating = null,
   timer = 0,
   told = 0;
 
@@ -50,6 +51,15 @@ export const JOBS = {
     later();
     return measuring.means();
   },
+  evaluate: ({ scene, sets, id }) => {
+    clearTimeout(timer);
+    if (evaluating) evaluating.free();
+    evaluating = null;
+    evaluating = new Evaluating(g, scene, sets);
+    evaluating.id = id;
+    timer = setTimeout(evaluateNext, 0);
+    return {};
+  },
   hash: ({ scene, collisions }) => {
     const made = new g.Scene(scene),
       simulation = new g.Simulation(made);
@@ -84,6 +94,18 @@ function measureOn(id) {
     postMessage({ job: "means", id, answer: measuring.means() });
   }
   if (!over) later();
+}
+
+/* Evaluate one theory, then serve messages of the page. */
+function evaluateNext() {
+  const { id } = evaluating;
+  try {
+    const done = evaluating.goOn();
+    postMessage({ job: "theories", id, answer: { ...evaluating.found, done } });
+    if (!done) timer = setTimeout(evaluateNext, 0);
+  } catch (e) {
+    postMessage({ job: "theories", id, refused: e.message });
+  }
 }
 
 const transfers = (answer) =>

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Calls of a worker (RPC): each job is a promise of its answer. */
 
-/* The two workers of the page: `live` runs the gas that is shown, `measure` its means and theories (gas.js opens them). */
-export const workers = { live: null, measure: null };
+/* The workers of the page: `live` runs the gas that is shown, `measure` its means, `evaluate` its theories (gas.js opens
+ * them). */
+export const workers = { live: null, measure: null, evaluate: null };
 
 export class WorkerClient {
   constructor(source) {
@@ -15,7 +16,7 @@ export class WorkerClient {
       const one = this.pending.get(data.id);
       this.pending.delete(data.id);
       if (one && data.job === one.job) one.settle(data);
-      else if (this.onmeans && data.job === "means") this.onmeans(data);
+      else if (this[`on${data.job}`]) this[`on${data.job}`](data);
     };
   }
   /* Reject every promise that is open. */

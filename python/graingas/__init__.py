@@ -19,6 +19,7 @@ from .estimate import Estimate
 from .extension import DoesNotApply, define_law, define_observable, define_theory
 from .grains import Grains
 from .hydrodynamics import LocalFluxes, local_fluxes
+from .live import View
 from .relaxation import Relaxation, TimeSeries, relax
 from .result import Result, export
 from .run import compare, read, run
@@ -35,5 +36,5 @@ __all__ = [  # what help(graingas) shows
     "define_observable", "define_theory", "DoesNotApply", "Estimate", "export", "GraingasError", "Grains", "Grid", "local_fluxes",
     "LocalFluxes", "NotFound", "PartialResult", "plot", "read", "relax", "Relaxation", "Result", "run", "RunFailed",
     "scan", "Scene", "Simulation", "Sweep", "sweep", "theories", "Theory", "theory", "TimeSeries", "Trajectory",
-    "trajectory", "validate", "Verdict",
+    "trajectory", "validate", "Verdict", "View",
 ]

@@ -191,6 +191,13 @@ class Simulation:
         self._advance(lib.gg_simulation_collide, whole(collisions, "collisions"))
         return self
 
+    def view(self, every: Optional[float] = None, size: int = 360, rate: float = 8):
+        """A live View for a notebook: every: time between pictures (None: a fifth of a diameter at the thermal speed);
+        size: of the picture in pixels; rate: pictures in a second, at most. For md.
+        """
+        from .live import View
+        return View(self, every, size, rate)
+
     def frames(self, every: float, n: Optional[int] = None) -> Iterator[Simulation]:
         """Advances by `every`, n times (None: without end): for sim in sim.frames(0.1, 50)."""
         k, every, n = 0, real(every, "every"), n if n is None else whole(n, "n")

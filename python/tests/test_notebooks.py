@@ -41,8 +41,8 @@ def execute(parts):
 
 
 def test_every_notebook_is_tried():
-    assert sorted(NOTEBOOKS) == ["friction", "haffs_law", "hydrodynamics", "own_theory", "sweep_to_xarray", "three_questions",
-                                 "trajectory", "two_temperatures"]
+    assert sorted(NOTEBOOKS) == ["friction", "haffs_law", "hydrodynamics", "own_theory", "suspension", "sweep_to_xarray",
+                                 "three_questions", "trajectory", "two_temperatures"]
 
 
 def test_friction():
@@ -55,6 +55,17 @@ def test_friction():
     assert theory.sel(theory="jenkins_zhang2002").values[-1] / measured[-1] < 0.7
     slow, fast = (names["paths"][times] for times in (10, 60))
     assert slow[1][-1] < 10 * slow[2][-1] and fast[1][-1] > 5000 * fast[2][-1]
+
+
+def test_suspension():
+    """Two states between drags 0.155 and 0.185; at 0.18 dsmc is within a quarter (hot) and a tenth (cold) of the closure; the way up and the way down differ."""
+    names = execute(cells("suspension"))
+    assert 0.15 < names["two"].min() < 0.16 and 0.18 < names["two"].max() < 0.19
+    at = np.argmin(abs(names["drags"] - 0.18))
+    assert abs(names["branches"]["hot"][at] / names["measured"]["hot"].mean - 1) < 0.25
+    assert abs(names["branches"]["cold"][at] / names["measured"]["cold"].mean - 1) < 0.1
+    path = dict(enumerate(zip(names["steps"], names["path"])))
+    assert path[2][0] == path[4][0] == 0.175 and path[2][1] > 80 and path[4][1] < 0.2
 
 
 def test_haffs_law():

@@ -47,9 +47,6 @@ typedef struct gg_api_request {
 } gg_api_request;
 bool gg_api_is_requested(void *request);
 
-/* result.c: the grains of a frame, in the order of their numbers. */
-void gg_api_frame_copy(const gg_frame *frame, const gg_grains *into);
-
 /* result.c: a curve, and its k-th number, as the interface has them; the unit is that of correlation times. */
 gg_curve_data gg_api_curve_view(const gg_curve *curve);
 gg_status gg_api_curve_number(const gg_curve *c, size_t k, const char *unit, gg_measurement *number, gg_error *err);

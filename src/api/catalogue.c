@@ -9,6 +9,8 @@
 #include "common/extension.h"
 #include "common/flow.h"
 #include "common/quantity.h"
+#include "common/thermostat.h"
+#include "measure/observable.h"
 #include "run/default_size.h"
 #include "run/result.h"
 #include "scene/model_of_scene.h"
@@ -100,14 +102,20 @@ static bool is_headline(const gg_model *model, gg_quantity q)
   return false;
 }
 
+/* The model of a scene, or of the defaults. */
+static gg_status model_of(const gg_scene *scene, gg_model *model, gg_error *err)
+{
+  gg_scene filled = scene ? *scene : gg_scene_defaults();
+  if (filled.phi < 0) filled.phi = 0.1;
+  gg_scene_fill_in(&filled);
+  return gg_scene_model_make(&filled, filled.engine, model, err);
+}
+
 /* The i-th quantity. Its unit depends on the flow; without a scene it is that of uniform shear. */
 static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
-  gg_scene filled = scene ? *scene : gg_scene_defaults();
   gg_model model;
-  if (filled.phi < 0) filled.phi = 0.1;
-  gg_scene_fill_in(&filled);
-  GG_TRY(gg_scene_model_make(&filled, filled.engine, &model, err));
+  GG_TRY(model_of(scene, &model, err));
   if (i >= (size_t)gg_common_quantity_set_of(&model)) return no_more(err);
   gg_quantity q = gg_common_quantity_at(&model, (int)i);
   *entry = (gg_entry){.name = gg_common_quantity_name_in(&model, q),
@@ -140,6 +148,10 @@ static gg_status flow_entry(size_t i, gg_entry *entry, gg_error *err)
   put_trait(entry, gg_flow_cools(flow), "cools");
   put_trait(entry, row->falling == GG_ALWAYS_FALLS, "falls");
   put_trait(entry, row->falling == GG_MAY_FALL, "may_fall");
+  for (int t = 0; t < GG_N_THERMOSTATS; t++)
+    if (gg_flow_takes(flow, t))
+      gg_base_text_append(entry->allowed, sizeof entry->allowed, "%s%s", *entry->allowed ? ", " : "",
+                          gg_common_thermostats[t].word);
   return GG_OK;
 }
 
@@ -170,7 +182,14 @@ static gg_status theory_entry(size_t i, const gg_scene *scene, gg_entry *entry, 
 static gg_status observable_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
   const gg_extension *user_defined = scene ? scene->extension : NULL;
-  if (i < GG_N_OBSERVABLES) return word_entry("measure", i, entry, err);
+  if (i < GG_N_OBSERVABLES) {
+    const gg_observable *o = gg_measure_observables[i];
+    gg_model model;
+    GG_TRY(word_entry("measure", i, entry, err));
+    if (!scene || !o->refuses) return GG_OK;
+    GG_TRY(model_of(scene, &model, err));
+    return entry->missing = o->refuses(&model), GG_OK;
+  }
   i -= GG_N_OBSERVABLES;
   if (i >= (size_t)gg_common_extension_observables(user_defined)) return no_more(err);
   const gg_observable_definition *o = gg_common_extension_observable(user_defined, (int)i);

@@ -44,9 +44,9 @@ static gg_status find_page(char page[PATH_MAX + 16], gg_error *err)
   snprintf(page, PATH_MAX + 16, "%s%s", folder, *folder ? "/page.html" : GG_PAGE_INSTALLED);
   if (access(page, R_OK) != 0)
     return gg_base_fail(err, GG_BAD_FILE,
-                        "there is no page: no %s; take graingas-VERSION-page.html of the release of this version (%s), "
-                        "and name it: graingas page --page FILE; or build it from the sources: ./check --page",
-                        page, gg_version());
+                        "there is no page: no %s; in the sources `ninja -C build page` makes it, with emscripten "
+                        "(./check --page installs that); or name a page: graingas page --page FILE",
+                        page);
   if (!*folder || (is_safe(folder) && is_safe(page))) return GG_OK;
   return gg_base_fail(err, GG_BAD_FILE,
                       "%s: others can write there, and could put another page in its place; "

@@ -69,25 +69,6 @@ size_t gg_trajectory_frames(const gg_trajectory *trajectory)
   return trajectory ? trajectory->stored.n_frames : 0;
 }
 
-/* Add the velocities and spins of a frame to the moments, in the chunks of an engine. */
-static void sum_up(gg_trajectory *t, const gg_frame *f)
-{
-  double c[3][GG_CHUNK], s[3][GG_CHUNK];
-  t->last = (gg_moments){.model = &t->model};
-  for (size_t from = 0; from < f->n; from += GG_CHUNK) {
-    gg_chunk chunk = {.n = f->n - from < GG_CHUNK ? f->n - from : GG_CHUNK, .c = {c[0], c[1], c[2]}};
-    if (f->species) chunk.species = f->species + from;
-    for (size_t i = 0; i < chunk.n; i++)
-      for (size_t a = 0; a < 3; a++) {
-        const double radius = t->model.diameter[f->species ? f->species[from + i] : 0] / 2;
-        c[a][i] = f->velocity[3 * (from + i) + a];
-        if (f->spin) s[a][i] = radius * f->spin[3 * (from + i) + a];
-      }
-    for (int a = 0; a < 3 && f->spin; a++) chunk.s[a] = s[a];
-    gg_api_moments_add(&t->last, &chunk);
-  }
-}
-
 /* Set the state of a frame. edges[3] is the shift of the images above, from -box/2 to box/2. */
 static gg_status set_state(const gg_trajectory *t, const gg_frame *f, const double edges[9], gg_simulation_state *state,
                            gg_error *err)
@@ -117,11 +98,14 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
   GG_TRY(gg_files_stored_trajectory_frame(&t->stored, k, &f, edges, err));
   if (t->model.n_species > 1) f.species = t->stored.species;
   gg_status status = gg_run_frame_check(&f, &t->model, err);
-  if (status == GG_OK) sum_up(t, &f);
+  if (status == GG_OK) {
+    t->last = (gg_moments){.model = &t->model};
+    gg_measure_frame_visit(&f, &t->model, gg_measure_moments_add, &t->last);
+  }
   if (status == GG_OK && state) status = set_state(t, &f, edges, state, err);
-  if (status == GG_OK && into) gg_api_frame_copy(&f, into);
+  if (status == GG_OK && into) gg_measure_frame_copy(&f, into->position, into->velocity, into->spin, into->species);
   f.species = NULL; /* belongs to the trajectory */
-  gg_run_frame_free(&f);
+  gg_measure_frame_free(&f);
   return status;
 }
 

@@ -206,19 +206,6 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
   return c ? gg_api_curve_number(c, k, result->correlation_time_unit, number, err) : GG_BAD_INPUT;
 }
 
-void gg_api_frame_copy(const gg_frame *f, const gg_grains *into)
-{
-  for (size_t i = 0; i < f->n; i++) {
-    const size_t place = f->id ? (size_t)f->id[i] : i;
-    if (into->species) into->species[place] = f->species ? f->species[i] : 0;
-    for (size_t a = 0; a < 3; a++) {
-      if (into->position) into->position[3 * place + a] = f->position[3 * i + a];
-      if (into->velocity) into->velocity[3 * place + a] = f->velocity[3 * i + a];
-      if (into->spin) into->spin[3 * place + a] = f->spin ? f->spin[3 * i + a] : 0;
-    }
-  }
-}
-
 gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_error *err)
 {
   GG_NEED(result, into);
@@ -226,7 +213,7 @@ gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_er
   if (!f->velocity) return gg_base_fail(err, GG_BAD_INPUT, "this result holds no grains");
   if (into->position && !f->position)
     return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions", result->engine);
-  gg_api_frame_copy(f, into);
+  gg_measure_frame_copy(f, into->position, into->velocity, into->spin, into->species);
   return GG_OK;
 }
 

@@ -109,10 +109,10 @@ static void put_row(FILE *out, const gg_sample_log *log, const gg_model *start, 
   if (temperature) put_number(out, log, "temperature", "", ldexp(r->clock.temperature, -2 * (int)r->clock.power));
   for (int mean = 0; mean < 2; mean++)
     for (int i = 0; i < n; i++) {
-      const int k = gg_run_replica_find_function(r, list[i], &f);
+      const int k = gg_measure_sampler_find(&r->sampler, list[i], &f);
       double x = NAN;
       if (k >= 0 && (!mean || log->state.rows))
-        x = gg_function_value(f, (mean ? log->mean : r->row) + r->offset[k], &r->model);
+        x = gg_function_value(f, (mean ? log->mean : r->sampler.row) + r->sampler.offset[k], &r->model);
       put_number(out, log, gg_common_quantity_name(list[i]), mean ? "_mean" : "", x);
     }
   fputs(log->json ? "}\n" : "\n", out);
@@ -136,7 +136,7 @@ static gg_status add_to_sums(gg_sample_log *log, const gg_replica *r, gg_error *
   }
   log->state.rows++;
   for (size_t i = 0; i < width; i++) {
-    log->sum[i] += r->row[i];
+    log->sum[i] += r->sampler.row[i];
     log->mean[i] = log->sum[i] / (double)log->state.rows;
   }
   return GG_OK;

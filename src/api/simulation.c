@@ -12,6 +12,7 @@
 #include "run/default_size.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
+#include "theory/near_steady.h"
 
 static bool is_stopped(void *context)
 {
@@ -66,7 +67,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   s->model.cuts_steps = true;
   s->stop_callback = stop, s->stop_context = context;
   status = gg_api_simulation_check_stop(s, err);
-  if (status == GG_OK && s->scene.start.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
+  if (status == GG_OK && s->scene.start.temperature == GG_AUTO) status = gg_theory_start_near_steady(&s->model, err);
   status = gg_base_callback_settle(status, err);
   if (status == GG_OK)
     *simulation = s;

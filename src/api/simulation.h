@@ -8,6 +8,7 @@
 #include "api/api.h"
 #include "base/busy.h"
 #include "common/engine.h"
+#include "measure/moments.h"
 #include "scene/scene.h"
 
 /* Free cooling extends over decades of T. So, as in runs, the engine's velocities are rescaled by exact powers of two;
@@ -65,15 +66,6 @@ gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err);
  * failure nothing changes. */
 gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err);
 
-/* moments.c: moments of the velocities, from an engine or a file. Initialise with the model, all sums zero. */
-typedef struct gg_moments {
-  const gg_model *model;
-  double cc[3][3], energy[GG_MAX_SPECIES];               /* sums of m C C and, by species, of m C.C */
-  double spin[GG_MAX_SPECIES][3], spin2[GG_MAX_SPECIES]; /* sums of surface velocities s and of s.s */
-} gg_moments;
-
-void gg_api_moments_add(void *moments, const gg_chunk *chunk);
-double gg_api_moments_temperature(const gg_moments *m);
 /* Set temperatures, stress, periodicity and, from state->collisions, collisions per grain. `unit`: velocities of the
  * state over those of the moments. */
 void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state *state);

@@ -7,112 +7,39 @@
 
 #include "api/simulation.h"
 #include "base/memory.h"
+#include "common/engine_grains.h"
 #include "common/extension.h"
 #include "common/rng.h"
-#include "run/engine_grains.h"
 #include "scene/fields.h"
 #include "scene/scene_reader.h"
 
-/* Fourth powers of larger numbers overflow. */
-#define LARGEST 1e75
-
-static gg_status check_numbers(const char *what, const double *x, size_t n, gg_error *err)
+static gg_grain_arrays arrays_of(const gg_grains *g)
 {
-  for (size_t i = 0; x && i < 3 * n; i++)
-    if (!(fabs(x[i]) < LARGEST))
-      return gg_base_fail(err, GG_BAD_INPUT, "%s of grain %zu: %g along %c; allowed: numbers below %g", what, i / 3,
-                          x[i], "xyz"[i % 3], LARGEST);
-  return GG_OK;
-}
-
-static gg_status check_places(const gg_model *m, const double *r, size_t n, gg_error *err)
-{
-  const bool open = gg_common_surface_is_open_above(m);
-  for (size_t i = 0; r && i < 3 * n; i++) {
-    const size_t a = i % 3;
-    if (r[i] >= 0 && (r[i] <= m->box[a] || (open && a == 1))) continue;
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "position of grain %zu: %.9g along %c is outside the box; allowed: 0 to %.9g", i / 3, r[i],
-                        "xyz"[a], m -> box[a]);
-  }
-  return GG_OK;
-}
-
-static gg_status check_species(const gg_model *m, const int *species, gg_error *err)
-{
-  int64_t of[GG_MAX_SPECIES] = {0};
-  for (int64_t i = 0; i < m->n; i++) {
-    if (species[i] < 0 || species[i] >= m->n_species)
-      return gg_base_fail(err, GG_BAD_INPUT, "species of grain %lld: %d; allowed: 0 to %d", (long long)i, species[i],
-                          m->n_species - 1);
-    of[species[i]]++;
-  }
-  for (int k = 0; k < m->n_species; k++)
-    if (of[k] != m->n_of[k])
-      return gg_base_fail(err, GG_BAD_INPUT, "species %d has %lld grains; the scene's fractions make it %lld", k,
-                          (long long)of[k], (long long)m->n_of[k]);
-  return GG_OK;
-}
-
-static gg_status check_spins(const gg_model *m, const double *spin, size_t n, gg_error *err)
-{
-  for (size_t i = 0; spin && m->rule == GG_SMOOTH && i < 3 * n; i++)
-    if (spin[i] != 0)
-      return gg_base_fail(err, GG_BAD_INPUT, "spin of grain %zu: %g; smooth grains do not rotate: give 0, or NULL",
-                          i / 3, spin[i]);
-  return GG_OK;
-}
-
-static gg_status check(const gg_model *m, const gg_grains *g, size_t n, gg_error *err)
-{
-  if (n != (size_t)m->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "%zu grains; the scene has %lld (%s)", n, (long long)m->n,
-                        m->homogeneous ? "dsmc.particles" : "particles");
-  if (g->position && m->homogeneous)
-    return gg_base_fail(err, GG_BAD_INPUT, "dsmc is spatially homogeneous: it takes no positions");
-  GG_TRY(check_numbers("position", g->position, n, err));
-  GG_TRY(check_numbers("velocity", g->velocity, n, err));
-  GG_TRY(check_numbers("spin", g->spin, n, err));
-  GG_TRY(check_places(m, g->position, n, err));
-  GG_TRY(check_spins(m, g->spin, n, err));
-  return g->species ? check_species(m, g->species, err) : GG_OK;
-}
-
-/* Convert the given arrays to the engine's units. Under periodic boundaries, box[a] is the same place as 0. */
-static void take(const gg_model *m, const gg_grains *g, double unit, gg_engine_grains *a)
-{
-  const size_t n = (size_t)m->n;
-  double *r = a->number, *c = r + 3 * n, *s = c + 3 * n;
-  for (size_t i = 0; g->species && i < n; i++) a->species[i] = g->species[i];
-  for (size_t i = 0; i < 3 * n; i++) {
-    const bool end = g->position && g->position[i] == m->box[i % 3] && !gg_common_surface_is_closed(m, (int)(i % 3));
-    if (g->position) r[i] = end ? 0 : g->position[i];
-    if (g->velocity) c[i] = g->velocity[i] / unit;
-    if (g->spin) s[i] = g->spin[i] / (unit * (m->boltzmann ? 1 : 2 / m->diameter[a->species[i / 3]]));
-  }
+  return (gg_grain_arrays){g->position, g->velocity, g->spin, g->species};
 }
 
 static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uint64_t stream, gg_error *err)
 {
   const gg_model *m = &s->model;
+  const gg_grain_arrays given = arrays_of(grains);
   const gg_engine_ops *ops = gg_common_engine_of(s->scene.engine);
-  GG_TRY(check(m, grains, n, err));
+  GG_TRY(gg_common_grains_check(m, &given, n, err));
   if (m->n_species > 1 && !grains->species)
     return gg_base_fail(err, GG_BAD_INPUT, "the scene has %d species: give the species of each grain", m->n_species);
   if (m->n_species > 1 && !m->homogeneous && !grains->position)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "grains of several species need positions: the start would part the species");
   gg_engine_grains a = {0};
-  gg_status status = gg_run_engine_grains_make(&a, n, err);
+  gg_status status = gg_common_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
-    take(m, grains, 1, &a);
+    gg_common_engine_grains_take(m, &given, 1, &a);
     a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
                                  .c = grains->velocity ? a.number + 3 * n : NULL,
                                  .s = grains->spin ? a.number + 6 * n : NULL,
                                  .species = a.species};
     status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
   }
-  gg_run_engine_grains_clear(&a);
+  gg_common_engine_grains_clear(&a);
   return status;
 }
 
@@ -147,16 +74,17 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
 {
   const size_t n = (size_t)model->n;
   const gg_engine_ops *ops = s->engine->ops;
+  const gg_grain_arrays given = grains ? arrays_of(grains) : (gg_grain_arrays){0};
   gg_engine *engine = NULL;
   gg_engine_grains a = {0};
   atomic_store(&s->stopped, false);
-  gg_status status = gg_run_engine_grains_make(&a, n, err);
+  gg_status status = gg_common_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
-    gg_run_engine_grains_read(s->engine, model, &a);
-    if (grains) take(model, grains, gg_api_simulation_unit(s), &a);
+    gg_common_engine_grains_read(s->engine, model, &a);
+    if (grains) gg_common_engine_grains_take(model, &given, gg_api_simulation_unit(s), &a);
     status = ops->create_with(model, 0, 0, &a.grains, s->engine, &engine, err);
   }
-  gg_run_engine_grains_clear(&a);
+  gg_common_engine_grains_clear(&a);
   status = gg_base_callback_settle(status, err);
   if (status != GG_OK) {
     if (engine) ops->destroy(engine);
@@ -178,7 +106,8 @@ gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *g
 {
   GG_NEED(simulation, grains);
   GG_USE_ALONE(simulation);
-  GG_TRY(check(&simulation->model, grains, n, err));
+  const gg_grain_arrays given = arrays_of(grains);
+  GG_TRY(gg_common_grains_check(&simulation->model, &given, n, err));
   return gg_api_simulation_continue(simulation, &simulation->model, grains, err);
 }
 
@@ -212,7 +141,7 @@ static bool may_change(const char *key)
 
 static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, gg_error *err)
 {
-  if (!gg_run_is_same_gas(&s->model, &next->model))
+  if (!gg_common_is_same_gas(&s->model, &next->model))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': this value needs other grains, another box or other units",
                         key);
   next->model.stop = &s->stop;

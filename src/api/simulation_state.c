@@ -6,6 +6,7 @@
 
 #include "api/simulation.h"
 #include "base/memory.h"
+#include "common/engine_grains.h"
 
 double gg_api_simulation_unit(const gg_simulation *s)
 {
@@ -15,19 +16,48 @@ double gg_api_simulation_unit(const gg_simulation *s)
 static gg_moments sum_up(const gg_simulation *s)
 {
   gg_moments m = {.model = &s->model};
-  s->engine->ops->snapshot(s->engine, false, gg_api_moments_add, &m);
+  s->engine->ops->snapshot(s->engine, false, gg_measure_moments_add, &m);
   return m;
 }
 
 double gg_api_simulation_temperature(const gg_simulation *s)
 {
   const gg_moments m = sum_up(s);
-  return gg_api_moments_temperature(&m);
+  return gg_measure_moments_temperature(&m);
 }
 
 double gg_api_simulation_strain(const gg_simulation *s)
 {
   return s->strained.strain + s->model.shear_rate * (s->clock.time - s->strained.until);
+}
+
+void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state *state)
+{
+  const gg_model *model = m->model;
+  const double n = (double)model->n, stress = model->density * model->stress_unit * unit * unit / n;
+  state->grains = (size_t)model->n;
+  state->collisions_per_grain = 2 * (double)state->collisions / n;
+  state->temperature = gg_measure_moments_temperature(m) * unit * unit;
+  state->rotational_temperature = gg_measure_moments_rotational_temperature(m) * unit * unit;
+  for (int a = 0; a < 3; a++) state->periodic[a] = !gg_common_surface_is_closed(model, a);
+  for (int a = 0; a < 3; a++)
+    for (int b = 0; b < 3; b++) state->kinetic_stress[a][b] = stress * m->cc[a][b];
+}
+
+gg_status gg_api_moments_species(const gg_moments *m, int species, double unit, gg_species_state *state, gg_error *err)
+{
+  const gg_model *model = m->model;
+  if (species < 0 || species >= model->n_species)
+    return gg_base_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
+                        model->n_species);
+  const double per = unit * unit / (3 * (double)model->n_of[species]);
+  *state = (gg_species_state){.grains = (size_t)model->n_of[species],
+                              .diameter = model->diameter[species],
+                              .mass = model->mass[species],
+                              .inertia = model->inertia[species],
+                              .temperature = m->energy[species] * per,
+                              .rotational_temperature = gg_measure_moments_rotation(m, species) * per};
+  return GG_OK;
 }
 
 int gg_simulation_species(const gg_simulation *simulation)
@@ -63,29 +93,6 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
   return GG_OK;
 }
 
-/* Copying of grains; md's grains are stored at their id. */
-typedef struct copying {
-  const gg_grains *into;
-  double velocity_unit, spin_unit[GG_MAX_SPECIES];
-  size_t at;
-} copying;
-
-static void copy(void *context, const gg_chunk *chunk)
-{
-  copying *c = context;
-  const gg_grains *to = c->into;
-  for (size_t i = 0; i < chunk->n; i++, c->at++) {
-    size_t place = chunk->id ? (size_t)chunk->id[i] : c->at;
-    int species = chunk->species ? chunk->species[i] : 0;
-    if (to->species) to->species[place] = species;
-    for (size_t a = 0; a < 3; a++) {
-      if (to->position) to->position[3 * place + a] = chunk->r[a][i];
-      if (to->velocity) to->velocity[3 * place + a] = chunk->c[a][i] * c->velocity_unit;
-      if (to->spin) to->spin[3 * place + a] = chunk->s[0] ? chunk->s[a][i] * c->spin_unit[species] : 0;
-    }
-  }
-}
-
 gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err)
 {
   GG_NEED(simulation, into);
@@ -94,10 +101,8 @@ gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_gra
   if (into->position && model->homogeneous)
     return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions",
                         simulation->engine->ops->name);
-  copying c = {.into = into, .velocity_unit = gg_api_simulation_unit(simulation)};
-  for (int i = 0; i < GG_MAX_SPECIES; i++)
-    c.spin_unit[i] = c.velocity_unit * (model->boltzmann ? 1 : 2 / model->diameter[i]);
-  simulation->engine->ops->snapshot(simulation->engine, !model->homogeneous, copy, &c);
+  gg_common_engine_grains_copy(simulation->engine, model, gg_api_simulation_unit(simulation), into->position,
+                               into->velocity, into->spin, into->species);
   return GG_OK;
 }
 
@@ -146,38 +151,6 @@ gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums 
   return GG_OK;
 }
 
-/* Hash of a state, to compare trajectories. Each bit of a word changes half of the bits of the hash on average: the
- * finaliser of MurmurHash3 (A. Appleby, public domain). */
-static uint64_t with_word(uint64_t hash, uint64_t word)
-{
-  hash = (hash ^ word) + 0x9e3779b97f4a7c15u;
-  hash = (hash ^ hash >> 33) * 0xff51afd7ed558ccdu;
-  hash = (hash ^ hash >> 33) * 0xc4ceb9fe1a85ec53u;
-  return hash ^ hash >> 33;
-}
-
-static uint64_t with_numbers(uint64_t hash, const double *x, size_t n)
-{
-  for (size_t i = 0; i < n; i++) {
-    uint64_t bits;
-    memcpy(&bits, &x[i], sizeof bits);
-    hash = with_word(hash, bits);
-  }
-  return hash;
-}
-
-/* The time is left out: it is a sum over stretches, and its last bits depend on the division into advances. */
-static uint64_t hash_of(const gg_simulation_state *state, const gg_grains *grains)
-{
-  const size_t n = state->grains;
-  uint64_t hash = with_word(0, state->collisions);
-  if (grains->position) hash = with_numbers(hash, grains->position, 3 * n);
-  hash = with_numbers(hash, grains->velocity, 3 * n);
-  hash = with_numbers(hash, grains->spin, 3 * n);
-  for (size_t i = 0; i < n; i++) hash = with_word(hash, (uint64_t)grains->species[i]);
-  return hash;
-}
-
 gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg_error *err)
 {
   GG_NEED(simulation, hash);
@@ -192,7 +165,8 @@ gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg
                             .spin = numbers + 6 * state.grains,
                             .species = species};
   gg_status status = species ? gg_simulation_get_grains(simulation, &grains, err) : GG_FAILED;
-  if (status == GG_OK) *hash = hash_of(&state, &grains);
+  const gg_grain_arrays all = {grains.position, grains.velocity, grains.spin, grains.species};
+  if (status == GG_OK) *hash = gg_common_grains_hash(state.collisions, &all, state.grains);
   free(species);
   free(numbers);
   return status;

@@ -64,11 +64,6 @@ void gg_bench_table_put(gg_bench_table *s, int row, int column, const char *form
   va_end(list);
 }
 
-json_t *gg_bench_number(double x)
-{
-  return isfinite(x) ? json_real(x) : json_null();
-}
-
 /* Name of a row: "ratios: md, walls, phi 0.3, particles 10000". A true member gives its key, a false one nothing. */
 static void name_row(const char *table, json_t *members, char *name, size_t size)
 {
@@ -108,8 +103,8 @@ void gg_bench_table_add(const gg_bench *b, gg_bench_table *s, gg_bench_value v, 
   va_end(list);
   name_row(s->key, members, name, sizeof name);
   json_t *row = json_pack("{s:s, s:s, s:o, s:o, s:o, s:i, s:i}", "name", name, "unit", v.unit, "value",
-                          gg_bench_number(v.value), "lowest", gg_bench_number(v.lowest), "highest",
-                          gg_bench_number(v.highest), "repeats", v.repeats, "threads", v.threads > 1 ? v.threads : 1);
+                          gg_io_json_finite(v.value), "lowest", gg_io_json_finite(v.lowest), "highest",
+                          gg_io_json_finite(v.highest), "repeats", v.repeats, "threads", v.threads > 1 ? v.threads : 1);
   json_object_update_new(row, members);
   if (more) json_object_update_new(row, more);
   json_object_update_new(row, origin());

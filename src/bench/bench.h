@@ -77,7 +77,6 @@ void gg_bench_table_put(gg_bench_table *table, int row, int column, const char *
  * reference is taken; may be NULL. */
 void gg_bench_table_add(const gg_bench *bench, gg_bench_table *table, gg_bench_value value, json_t *more,
                         const char *format, ...);
-json_t *gg_bench_number(double x); /* null if not finite */
 void gg_bench_report(const gg_bench *bench, const char *format, ...) GG_PRINTF(2, 3);
 /* The default scene with the seed of this bench; the seconds of a stretch, reduced by options->smaller. */
 gg_scene gg_bench_scene(const gg_bench *bench, gg_engine_kind engine, double phi, int64_t n);

@@ -176,10 +176,10 @@ static const char *engine_name(const engine_bench *e)
 }
 
 static void put_rate(const gg_bench *b, gg_bench_table *t, const engine_bench *e, int row, int column, double phi,
-                     int64_t n, const gg_throughput *r)
+                     int64_t n, const gg_timing *r)
 {
   const bool is_md = e->engine == GG_MD;
-  const gg_bench_value v = gg_bench_throughput_value(r, !is_md, e->unit);
+  const gg_bench_value v = is_md ? gg_bench_rate(r, e->unit) : gg_bench_time(r, e->unit);
   if (is_md)
     gg_bench_table_put(t, row, column, "%.3g (%.3g - %.3g) %.0f ns", v.value * 1e-6, v.lowest * 1e-6, v.highest * 1e-6,
                        1e9 / v.value);
@@ -200,12 +200,12 @@ static gg_status measure_rates(gg_bench *b, const engine_bench *e, gg_error *err
   for (int i = 0; i < (quick ? e->quick_sizes : e->n_sizes); i++) {
     const int row = gg_bench_table_row(t, "%lld", (long long)e->sizes[i]);
     for (int d = 0; d < e->n_densities; d++) {
-      gg_throughput r;
+      gg_timing r;
       const gg_scene s = timed_scene(b, e, 0, e->densities[d], e->sizes[i]).scene;
       GG_TRY(gg_bench_throughput_measure(&s, false, warmup_of(e, e->sizes[i], quick), quick ? 3 : 7,
                                          gg_bench_seconds(b, quick ? 0.3 : 1), &r, err));
       put_rate(b, t, e, row, 1 + d, e->densities[d], e->sizes[i], &r);
-      gg_bench_report(b, "phi %g N %lld: %.3g M/s", e->densities[d], (long long)e->sizes[i], r.rate * 1e-6);
+      gg_bench_report(b, "phi %g N %lld: %.3g M/s", e->densities[d], (long long)e->sizes[i], r.rate.value * 1e-6);
     }
   }
   return GG_OK;
@@ -217,17 +217,17 @@ static void put_ratio(const gg_bench *b, gg_bench_table *t, const engine_bench *
 {
   const bool is_md = e->engine == GG_MD;
   const feature *f = &e->features[kind];
-  const gg_bench_value v = gg_bench_throughput_value(&r->own, !is_md, e->unit);
-  const double ratio = is_md ? r->ratio : 1 / r->ratio, least = is_md ? r->lowest : 1 / r->highest,
-               largest = is_md ? r->highest : 1 / r->lowest;
+  const gg_bench_value v = is_md ? gg_bench_rate(r, e->unit) : gg_bench_time(r, e->unit),
+                       ratio = is_md ? r->ratio : gg_bench_inverse(r->ratio, 1);
   if (strcmp(f->against, f->name) == 0)
     gg_bench_table_put(t, kind, column, is_md ? "%.3g M/s" : "%.2f ns", is_md ? v.value * 1e-6 : v.value);
   else if (is_md)
-    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f)", ratio, least, largest);
+    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f)", ratio.value, ratio.lowest, ratio.highest);
   else
-    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f) %.1f ns", ratio, least, largest, v.value);
-  json_t *beside = json_pack("{s:s, s:f, s:f, s:f}", "against", f->against, "ratio", ratio, "ratio_lowest", least,
-                             "ratio_highest", largest);
+    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f) %.1f ns", ratio.value, ratio.lowest, ratio.highest,
+                       v.value);
+  json_t *beside = json_pack("{s:s, s:f, s:f, s:f}", "against", f->against, "ratio", ratio.value, "ratio_lowest",
+                             ratio.lowest, "ratio_highest", ratio.highest);
   gg_bench_table_add(b, t, v, beside, "{s:s, s:s, s:f, s:I}", "engine", engine_name(e), "scene", f->name, "phi", phi,
                      "particles", (json_int_t)n);
 }
@@ -259,6 +259,9 @@ static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *er
   return GG_OK;
 }
 
+/* What the second way does that the first does not. */
+typedef enum second_way { IN_SINGLE_PRECISION, IN_BLOCKS, ON_THREADS } second_way;
+
 /* Comparison of two variants of a scene, by kind and size. */
 typedef struct two_ways {
   const engine_bench *of;
@@ -267,15 +270,8 @@ typedef struct two_ways {
   const char *kinds[11]; /* ends with NULL */
   int first_size, warmup[2], repeats[2];
   double seconds[2]; /* seconds of a stretch: full and quick, as the sizes above */
-  void (*differ)(gg_timed_scene way[2], int threads);
-  void (*put)(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads);
+  second_way second;
 } two_ways;
-
-static void in_single_precision(gg_timed_scene way[2], int threads)
-{
-  (void)threads;
-  way[1].scene.dsmc.precision = GG_SINGLE;
-}
 
 static void take_plain_path(gg_engine *engine)
 {
@@ -284,36 +280,27 @@ static void take_plain_path(gg_engine *engine)
   gg_dsmc_start_majorants(d);
 }
 
-static void in_blocks(gg_timed_scene way[2], int threads)
+static void differ(gg_timed_scene way[2], second_way second, int threads)
 {
-  (void)threads;
-  way[0].prepare = take_plain_path;
-}
-
-static void on_threads(gg_timed_scene way[2], int threads)
-{
-  way[0].wall_time = way[1].wall_time = true;
+  if (second == IN_SINGLE_PRECISION) way[1].scene.dsmc.precision = GG_SINGLE;
+  if (second == IN_BLOCKS) way[0].prepare = take_plain_path;
+  way[0].wall_time = way[1].wall_time = second == ON_THREADS;
   way[1].threads = threads;
 }
 
-static void put_precision(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads)
+static void put_two(gg_bench_table *t, int row, int column, const gg_timing r[2], second_way second, int threads)
 {
-  (void)threads;
-  gg_bench_table_put(t, row, column, "%.1f/%.1f ns %.2f (%.2f - %.2f)", 1e9 / r[0].own.rate, 1e9 / r[1].own.rate,
-                     r[1].ratio, r[1].lowest, r[1].highest);
-}
-
-static void put_paths(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads)
-{
-  (void)threads;
-  gg_bench_table_put(t, row, column, "%.1f (%.1f - %.1f) %.0f/%.1f ns", r[1].ratio, r[1].lowest, r[1].highest,
-                     1e9 / r[0].own.rate, 1e9 / r[1].own.rate);
-}
-
-static void put_threads(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads)
-{
-  gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f) %.2f of %d", r[1].ratio, r[1].lowest, r[1].highest,
-                     r[1].own.processors, threads);
+  const gg_bench_value ratio = r[1].ratio;
+  const double ns[2] = {1e9 / r[0].rate.value, 1e9 / r[1].rate.value};
+  if (second == IN_SINGLE_PRECISION)
+    gg_bench_table_put(t, row, column, "%.1f/%.1f ns %.2f (%.2f - %.2f)", ns[0], ns[1], ratio.value, ratio.lowest,
+                       ratio.highest);
+  else if (second == IN_BLOCKS)
+    gg_bench_table_put(t, row, column, "%.1f (%.1f - %.1f) %.0f/%.1f ns", ratio.value, ratio.lowest, ratio.highest,
+                       ns[0], ns[1]);
+  else
+    gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f) %.2f of %d", ratio.value, ratio.lowest, ratio.highest,
+                       r[1].processors, threads);
 }
 
 static const two_ways precision = {
@@ -331,8 +318,7 @@ static const two_ways precision = {
     {10, 3},
     {5, 3},
     {0.3, 0.05},
-    in_single_precision,
-    put_precision};
+    IN_SINGLE_PRECISION};
 static const two_ways paths = {
     &dsmc,
     0.3,
@@ -346,8 +332,7 @@ static const two_ways paths = {
     {5, 3},
     {5, 3},
     {0.5, 0.1},
-    in_blocks,
-    put_paths};
+    IN_BLOCKS};
 static const two_ways threads = {
     &dsmc,
     0.3,
@@ -360,27 +345,25 @@ static const two_ways threads = {
     {5, 5},
     {9, 5},
     {0.4, 0.1},
-    on_threads,
-    put_threads};
+    ON_THREADS};
 
 #define THREADS_OF_MD(key, phi)                                                                                        \
   {                                                                                                                    \
     &md, phi, key,                                                                                                     \
         "Speedup by threads within one run: the rate of collisions over that of one thread, in wall time, timed in "   \
         "turn; median (least - largest) of repeats, and processors busy on average",                                   \
-        "threads against one", {"smooth", "sheared rough, stress measured"}, 2, {5, 5}, {5, 3}, {1, 0.3}, on_threads,  \
-        put_threads                                                                                                    \
+        "threads against one", {"smooth", "sheared rough, stress measured"}, 2, {5, 5}, {5, 3}, {1, 0.3}, ON_THREADS   \
   }
 static const two_ways threads_of_md[] = {THREADS_OF_MD("threads", 0.3), THREADS_OF_MD("threads, dense", 0.5)};
 
 static void add_two(const gg_bench *b, gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2],
                     int used)
 {
-  gg_bench_value v = gg_bench_throughput_value(&r[1].own, true, used > 1 ? gg_bench_wall_unit : dsmc.unit);
+  gg_bench_value v = gg_bench_time(&r[1], used > 1 ? gg_bench_wall_unit : dsmc.unit);
   v.threads = used;
   json_t *beside =
-      json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].own.rate, "ratio", r[1].ratio, "ratio_lowest",
-                r[1].lowest, "ratio_highest", r[1].highest, "processors", r[1].own.processors);
+      json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].rate.value, "ratio", r[1].ratio.value, "ratio_lowest",
+                r[1].ratio.lowest, "ratio_highest", r[1].ratio.highest, "processors", r[1].processors);
   gg_bench_table_add(b, t, v, beside, "{s:s, s:s, s:f, s:I}", "engine", engine_name(w->of), "scene", w->kinds[k], "phi",
                      w->phi, "particles", (json_int_t)n);
 }
@@ -400,10 +383,10 @@ static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error 
       gg_timing r[2];
       way[0].against = 0;
       way[1] = way[0];
-      w->differ(way, used);
+      differ(way, w->second, used);
       GG_TRY(gg_bench_throughput_compare(way, 2, w->warmup[quick], w->repeats[quick],
                                          gg_bench_seconds(b, w->seconds[quick]), r, err));
-      w->put(t, k, column, r, used);
+      put_two(t, k, column, r, w->second, used);
       add_two(b, t, w, k, n, r, used);
     }
     if (used > 1)
@@ -445,15 +428,15 @@ static const struct {
 } kernels[] = {{"smooth", -1, INFINITY}, {"rough", 0, INFINITY}, {"frictional", 0.4, 0.123}};
 
 static void put_overview(const gg_bench *b, gg_bench_table *t, const char *engine, double phi, int64_t n,
-                         const gg_throughput *r)
+                         const gg_timing *r)
 {
   const int row = gg_bench_table_row(t, "%s", engine);
   gg_bench_table_put(t, row, 1, "%g", phi);
   gg_bench_table_put(t, row, 2, "%lld", (long long)n);
   for (int k = 0; k < COUNT(kernels); k++) {
-    gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r[k].rate * 1e-6, 1e9 / r[k].rate);
-    gg_bench_table_add(b, t, gg_bench_throughput_value(&r[k], false, md.unit), NULL, "{s:s, s:s, s:f, s:I}", "engine",
-                       engine, "kernel", kernels[k].name, "phi", phi, "particles", (json_int_t)n);
+    gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r[k].rate.value * 1e-6, 1e9 / r[k].rate.value);
+    gg_bench_table_add(b, t, gg_bench_rate(&r[k], md.unit), NULL, "{s:s, s:s, s:f, s:I}", "engine", engine, "kernel",
+                       kernels[k].name, "phi", phi, "particles", (json_int_t)n);
   }
 }
 
@@ -462,7 +445,7 @@ static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind
 {
   const bool quick = b->options->quick;
   const char *name = gg_common_engine_of(engine)->name;
-  gg_throughput r[COUNT(kernels)];
+  gg_timing r[COUNT(kernels)];
   for (int k = 0; k < COUNT(kernels); k++) {
     gg_scene s = gg_bench_scene(b, engine, phi, n);
     s.collision.beta[0] = kernels[k].beta;

@@ -175,7 +175,7 @@ static void put_seconds(gg_bench_table *table, int row, const gg_error_state *s,
 
 static json_t *two(double x, double y)
 {
-  return json_pack("[o, o]", gg_bench_number(x), gg_bench_number(y));
+  return json_pack("[o, o]", gg_io_json_finite(x), gg_io_json_finite(y));
 }
 
 static void add_row(const gg_bench *b, gg_bench_table *table, const gg_error_state *s, int q, const char *by,
@@ -192,20 +192,20 @@ static void add_course(const gg_bench *b, gg_bench_table *table, const gg_error_
   json_t *t = json_array(), *error = json_array(), *uncertain = json_array();
   for (int k = 0; k < c->marks; k++) {
     double of_error, e = gg_bench_error_at(s, i, q, k, &of_error);
-    json_array_append_new(t, gg_bench_number(c->seconds[k]));
-    json_array_append_new(error, gg_bench_number(e));
-    json_array_append_new(uncertain, gg_bench_number(of_error));
+    json_array_append_new(t, gg_io_json_finite(c->seconds[k]));
+    json_array_append_new(error, gg_io_json_finite(e));
+    json_array_append_new(uncertain, gg_io_json_finite(of_error));
   }
   json_t *until = json_array();
   for (int k = 0; k < N_TARGETS; k++)
-    json_array_append_new(until, gg_bench_number(gg_bench_seconds_to(s, i, q, targets[k])));
+    json_array_append_new(until, gg_io_json_finite(gg_bench_seconds_to(s, i, q, targets[k])));
   const gg_error_method *way = &gg_bench_error_methods[i];
   json_t *course =
       json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "engine",
                 gg_common_engine_of((int)way->engine)->name, "particles", (json_int_t)way->n, "warmup_seconds",
-                gg_bench_number(c->warmup), "error_of_a_second", gg_bench_number(s->noise[i][q]), "floor",
-                gg_bench_number(s->floor[i][q]), "floor_stderr", gg_bench_number(s->shift_error[i][q]), "seconds", t,
-                "relative_error", error, "stderr", uncertain, "seconds_to_0.01_0.001_0.0001", until);
+                gg_io_json_finite(c->warmup), "error_of_a_second", gg_io_json_finite(s->noise[i][q]), "floor",
+                gg_io_json_finite(s->floor[i][q]), "floor_stderr", gg_io_json_finite(s->shift_error[i][q]), "seconds",
+                t, "relative_error", error, "stderr", uncertain, "seconds_to_0.01_0.001_0.0001", until);
   add_row(b, table, s, q, way->name, "CPU seconds to an error of 1 %", gg_bench_seconds_to(s, i, q, targets[0]),
           c->seeds, course);
 }
@@ -226,11 +226,11 @@ static void put_floors(const gg_bench *b, gg_bench_table *table, int row, const 
   gg_bench_table_put(table, row, 9, "%+.1e +- %.0e", single, e);
   const double coefficient = s->step_coefficient[q], uncertain = s->step_coefficient_error[q];
   json_t *floors =
-      json_pack("{s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "truth", gg_bench_number(s->truth[GG_DSMC][q]),
-                "truth_error", gg_bench_number(s->truth_error[GG_DSMC][q]), "source", s->source[GG_DSMC][q],
+      json_pack("{s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "truth", gg_io_json_finite(s->truth[GG_DSMC][q]),
+                "truth_error", gg_io_json_finite(s->truth_error[GG_DSMC][q]), "source", s->source[GG_DSMC][q],
                 "dsmc_times_N", two(dsmc->per_grain / unit, dsmc->per_grain_error / unit), "md_times_N",
                 two(md->per_grain / unit, md->per_grain_error / unit), "step", two(coefficient, uncertain),
-                "step_order", gg_bench_number(s->step_order[q]), "single", two(single, e));
+                "step_order", gg_io_json_finite(s->step_order[q]), "single", two(single, e));
   add_row(b, table, s, q, s->source[GG_DSMC][q], "relative error of the truth", s->truth_error[GG_DSMC][q] / unit, 1,
           floors);
 }

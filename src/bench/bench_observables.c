@@ -9,6 +9,7 @@
 #include "run/replica.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
+#include "theory/near_steady.h"
 
 enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 
@@ -39,11 +40,11 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   gg_model model;
   s.measure = measure;
   GG_TRY(gg_scene_model_make(&s, s.engine, &model, err));
-  GG_TRY(gg_run_start_near_steady(&model, err));
+  GG_TRY(gg_theory_start_near_steady(&model, err));
   GG_TRY(gg_run_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
   GG_TRY(gg_run_replica_open_window(&c->replica, err));
-  c->replica.clock.window_samples = gg_run_sampling_bursts_of(&model).regular_from; /* as in a long run */
+  c->replica.clock.window_samples = gg_measure_bursts_of(&model).regular_from; /* as in a long run */
   return GG_OK;
 }
 
@@ -62,11 +63,11 @@ static uint64_t cycle_of(const gg_replica *r)
 {
   const gg_engine_ops *ops = r->engine->ops;
   int cycle = LEAST_CYCLE;
-  for (int k = 0; k < r->n_observables; k++) {
-    if (r->every[k] > cycle) cycle = r->every[k];
-    const gg_observable_collisions *c = r->observable[k]->collisions;
+  for (int k = 0; k < r->sampler.n_observables; k++) {
+    if (r->sampler.every[k] > cycle) cycle = r->sampler.every[k];
+    const gg_observable_collisions *c = r->sampler.observable[k]->collisions;
     if (c && c->begin_burst && ops->callback_slows && ops->callback_slows(r->engine))
-      return gg_run_sampling_bursts_of(&r->model).apart;
+      return gg_measure_bursts_of(&r->model).apart;
   }
   return (uint64_t)cycle;
 }

@@ -72,7 +72,7 @@ static gg_status measure(const gg_bench *b, const single *s, gg_bench_value *v, 
   gg_timing r;
   if (s->start) return measure_start(&c.scene, repeats, v, err);
   GG_TRY(gg_bench_throughput_compare(&c, 1, quick ? 10 : 20, repeats, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r, err));
-  *v = gg_bench_throughput_value(&r.own, true, s->threads ? gg_bench_wall_unit : "ns per collision");
+  *v = gg_bench_time(&r, s->threads ? gg_bench_wall_unit : "ns per collision");
   v->threads = s->threads;
   return GG_OK;
 }

@@ -2,7 +2,6 @@
 #include "bench/throughput.h"
 
 #include <math.h>
-#include <string.h>
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
@@ -10,6 +9,7 @@
 #include "base/clock.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
+#include "theory/near_steady.h"
 
 enum { MOST_REPEATS = 32 };
 
@@ -19,7 +19,6 @@ const char gg_bench_wall_unit[] = "ns per collision, wall time";
 typedef struct timed {
   gg_engine *engine;
   uint64_t guess; /* collisions between two readings of the clock */
-  uint64_t timed;
   bool wall_time;
   double wall, cpu; /* totals */
   double rate[MOST_REPEATS];
@@ -83,7 +82,6 @@ static gg_status time_stretch(timed *r, double seconds, double *rate, gg_error *
   *rate = (double)sum / gone;
   r->wall += gg_base_clock_wall() - wall;
   r->cpu += cpu_used(r->engine) - cpu;
-  r->timed += sum;
   return GG_OK;
 }
 
@@ -95,7 +93,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   GG_TRY(gg_scene_model_make(scene, scene->engine, &model, err));
   const gg_engine_ops *ops = gg_common_engine_of(scene->engine);
   GG_TRY(ops->accepts(&model, err));
-  GG_TRY(gg_run_start_near_steady(&model, err));
+  GG_TRY(gg_theory_start_near_steady(&model, err));
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
   r->wall_time = c->wall_time;
   ops = r->engine->ops;
@@ -113,20 +111,11 @@ gg_bench_value gg_bench_spread(const char *unit, double *values, int n)
                           1};
 }
 
-static gg_throughput summary(const timed *r, int repeats)
+static gg_timing compare(const timed *r, const timed *other, int repeats)
 {
-  double rate[MOST_REPEATS];
-  memcpy(rate, r->rate, sizeof rate);
-  const gg_bench_value v = gg_bench_spread("", rate, repeats);
-  return (gg_throughput){v.value, v.lowest, v.highest, repeats, r->cpu / r->wall, r->timed};
-}
-
-static void compare(const timed *r, const timed *other, int repeats, gg_timing *out)
-{
-  double ratio[MOST_REPEATS];
-  for (int i = 0; i < repeats; i++) ratio[i] = r->rate[i] / other->rate[i];
-  const gg_bench_value v = gg_bench_spread("", ratio, repeats);
-  *out = (gg_timing){summary(r, repeats), v.value, v.lowest, v.highest};
+  double rate[MOST_REPEATS], ratio[MOST_REPEATS];
+  for (int i = 0; i < repeats; i++) rate[i] = r->rate[i], ratio[i] = r->rate[i] / other->rate[i];
+  return (gg_timing){gg_bench_spread("", rate, repeats), gg_bench_spread("", ratio, repeats), r->cpu / r->wall};
 }
 
 static gg_status time_all(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds, timed *r,
@@ -146,25 +135,32 @@ gg_status gg_bench_throughput_compare(const gg_timed_scene *c, int n, double war
   if (repeats > MOST_REPEATS) repeats = MOST_REPEATS;
   gg_status status = time_all(c, n, warmup, repeats, seconds, r, err);
   for (int k = 0; k < n; k++) {
-    if (status == GG_OK) compare(&r[k], &r[c[k].against], repeats, &out[k]);
+    if (status == GG_OK) out[k] = compare(&r[k], &r[c[k].against], repeats);
     if (r[k].engine) r[k].engine->ops->destroy(r[k].engine);
   }
   return status;
 }
 
 gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
-                                      gg_throughput *out, gg_error *err)
+                                      gg_timing *out, gg_error *err)
 {
-  gg_timed_scene only = {.scene = *scene, .sums = sums, .against = 0};
-  gg_timing result;
-  *out = (gg_throughput){0};
-  GG_TRY(gg_bench_throughput_compare(&only, 1, warmup, repeats, seconds, &result, err));
-  *out = result.own;
-  return GG_OK;
+  const gg_timed_scene only = {.scene = *scene, .sums = sums, .against = 0};
+  return gg_bench_throughput_compare(&only, 1, warmup, repeats, seconds, out, err);
 }
 
-gg_bench_value gg_bench_throughput_value(const gg_throughput *r, bool time, const char *unit)
+gg_bench_value gg_bench_inverse(gg_bench_value v, double numerator)
 {
-  if (time) return (gg_bench_value){unit, 1e9 / r->rate, 1e9 / r->fastest, 1e9 / r->slowest, r->repeats, 1};
-  return (gg_bench_value){unit, r->rate, r->slowest, r->fastest, r->repeats, 1};
+  return (gg_bench_value){v.unit, numerator / v.value, numerator / v.highest, numerator / v.lowest, v.repeats, 1};
+}
+
+gg_bench_value gg_bench_rate(const gg_timing *r, const char *unit)
+{
+  gg_bench_value v = r->rate;
+  v.unit = unit;
+  return v;
+}
+
+gg_bench_value gg_bench_time(const gg_timing *r, const char *unit)
+{
+  return gg_bench_inverse(gg_bench_rate(r, unit), 1e9);
 }

@@ -6,24 +6,24 @@
 #include "bench/bench.h"
 #include "common/engine.h"
 
-typedef struct gg_throughput {
-  double rate;             /* collisions per CPU-second (or second): median of the repeats */
-  double slowest, fastest; /* slowest and fastest of the repeats */
-  int repeats;
-  double processors;   /* mean number of busy processors: CPU time of all threads over wall time */
-  uint64_t collisions; /* total that was timed */
-} gg_throughput;
+typedef struct gg_timing {
+  gg_bench_value rate;  /* collisions per CPU-second (or second) */
+  gg_bench_value ratio; /* rate over that of the scene it is compared with, of each repeat */
+  double processors;    /* mean number of busy processors: CPU time of all threads over wall time */
+} gg_timing;
 
 /* Start the scene near its steady state, advance `warmup` collisions per grain, then time `repeats` stretches of at
  * least `seconds` of CPU time each. */
 gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
-                                      gg_throughput *out, gg_error *err);
+                                      gg_timing *out, gg_error *err);
 
 /* Median, least and largest of n numbers, which are sorted. */
 gg_bench_value gg_bench_spread(const char *unit, double *values, int n);
 extern const char gg_bench_wall_unit[]; /* unit of rows in wall time */
 /* Value of a row: the rate, or nanoseconds per collision. */
-gg_bench_value gg_bench_throughput_value(const gg_throughput *measured, bool time, const char *unit);
+gg_bench_value gg_bench_rate(const gg_timing *measured, const char *unit);
+gg_bench_value gg_bench_time(const gg_timing *measured, const char *unit);
+gg_bench_value gg_bench_inverse(gg_bench_value value, double numerator);
 
 /* Several scenes, timed in turn: each repeat times one stretch of each scene, so that other load of the machine affects
  * all alike. Ratios within a repeat are more accurate than rates. */
@@ -36,11 +36,6 @@ typedef struct gg_timed_scene {
   bool wall_time;                     /* measure wall time, not processor time */
   void (*prepare)(gg_engine *engine); /* called with the new engine; may be NULL */
 } gg_timed_scene;
-typedef struct gg_timing {
-  gg_throughput own;
-  double ratio, lowest, highest; /* rate over that of the scene `against`: median, least and largest of the repeats */
-} gg_timing;
-
 gg_status gg_bench_throughput_compare(const gg_timed_scene *scenes, int n, double warmup, int repeats, double seconds,
                                       gg_timing *out, gg_error *err);
 

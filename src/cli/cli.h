@@ -48,5 +48,7 @@ void gg_cli_print_text(char *text);
 
 /* The tables of commands, options, scene keys, quantities and theories, as JSON. */
 void gg_cli_print_tables(void);
+/* Observables that each flow, engine and kind of grains cannot have, with the reasons. */
+struct json_t *gg_cli_support(void);
 
 #endif

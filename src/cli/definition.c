@@ -3,6 +3,7 @@
 #include "cli/definition.h"
 
 #include <errno.h>
+#include <jansson.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -132,6 +133,29 @@ static void define_word(const gg_entry *w, const char *of, int most)
 {
   printf("%s: %s\n", w->name, of);
   line("meaning", w->doc, twice(most));
+  line("thermostats", w->allowed, most);
+}
+
+/* An observable: the flows in which each engine has it (rough grains have every observable that others have). */
+static void define_observable(const gg_entry *o, int most)
+{
+  json_t *all = gg_cli_support(), *one;
+  char md[400] = "", dsmc[400] = "";
+  size_t i;
+  json_array_foreach(all, i, one)
+  {
+    const char *flow, *engine, *grains;
+    json_t *missing;
+    json_unpack(one, "{s:s, s:s, s:s, s:o}", "flow", &flow, "engine", &engine, "grains", &grains, "missing", &missing);
+    char *text = strcmp(engine, "md") == 0 ? md : dsmc;
+    if (strcmp(grains, "rough") == 0 && !json_object_get(missing, o->name))
+      snprintf(text + strlen(text), sizeof md - strlen(text), "%s%s", *text ? ", " : "", flow);
+  }
+  json_decref(all);
+  define_word(o, "an observable (measure: [...])", most);
+  line("md", *md ? md : "none", most);
+  line("dsmc", *dsmc ? dsmc : "none", most);
+  line("more", "docs/reference/support.md, observables.md", most);
 }
 
 static void define(gg_catalogue list, const gg_entry *entry, int most)
@@ -143,10 +167,7 @@ static void define(gg_catalogue list, const gg_entry *entry, int most)
   case GG_CATALOGUE_THEORIES: define_theory(entry, most); return;
   case GG_CATALOGUE_FLOWS: define_word(entry, "a flow (flow: ...)", most); return;
   case GG_CATALOGUE_ENGINES: define_word(entry, "an engine (engine: ...)", most); return;
-  case GG_CATALOGUE_OBSERVABLES:
-    define_word(entry, "an observable (measure: [...])", most);
-    line("more", "docs/reference/observables.md", most);
-    return;
+  case GG_CATALOGUE_OBSERVABLES: define_observable(entry, most); return;
   }
 }
 

@@ -108,6 +108,15 @@ static int execute(const gg_command *c, int argc, char **argv)
   return code;
 }
 
+static int print_completion(const char *shell)
+{
+  const char *const known[][2] = {
+      {"bash", gg_cli_completion_bash}, {"zsh", gg_cli_completion_zsh}, {"fish", gg_cli_completion_fish}};
+  for (int i = 0; i < 3; i++)
+    if (shell && strcmp(shell, known[i][0]) == 0) return fputs(known[i][1], stdout), GG_OK;
+  return gg_cli_fail(GG_BAD_INPUT, "--completion takes the name of a shell: bash, zsh or fish");
+}
+
 static int dispatch(int argc, char **argv)
 {
   const char *word = argc > 1 ? argv[1] : "";
@@ -117,7 +126,7 @@ static int dispatch(int argc, char **argv)
   if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
     return help(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--version") == 0) return printf("graingas %s\n", gg_version()), GG_OK;
-  if (strcmp(word, "--completion") == 0) return gg_cli_print_completion(argc > 2 ? argv[2] : NULL);
+  if (strcmp(word, "--completion") == 0) return print_completion(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--tables") == 0) return gg_cli_print_tables(), GG_OK;
   return unknown(word);
 }

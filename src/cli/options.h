@@ -90,8 +90,8 @@ typedef gg_status gg_options_setter(void *target, const char *key, const char *v
 gg_status gg_cli_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
                              void *target, gg_error *err);
 
-/* completion.c: print the completion script for bash, zsh or fish; returns the exit code. */
-int gg_cli_print_completion(const char *shell);
+/* What shells complete, made by scripts/shell-completion of the tables that this program prints. */
+extern const char gg_cli_completion_bash[], gg_cli_completion_zsh[], gg_cli_completion_fish[];
 
 void gg_cli_command_print_help(const gg_command *command);
 

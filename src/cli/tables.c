@@ -40,6 +40,41 @@ static json_t *entries_in(gg_catalogue list, const char *yaml)
   return all;
 }
 
+/* Observables that a scene cannot have, with the reasons; "scene": why the scene itself is rejected. */
+static json_t *missing_in(const char *yaml)
+{
+  json_t *all = json_object();
+  gg_scene *scene = NULL;
+  gg_error why;
+  gg_entry o;
+  if (gg_scene_parse(yaml, NULL, &scene, &why) != GG_OK || gg_scene_check(scene, &why) != GG_OK)
+    json_object_set_new(all, "scene", json_string(why.message));
+  else
+    for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_OBSERVABLES, i, scene, &o, NULL) == GG_OK; i++)
+      if (o.missing) json_object_set_new(all, o.name, json_string(o.missing));
+  gg_scene_free(scene);
+  return all;
+}
+
+json_t *gg_cli_support(void)
+{
+  static const char *const grains[][2] = {{"smooth", "collision: {}"},
+                                          {"rough", "collision: {beta: 1}"},
+                                          {"frictional", "collision: {beta: 0, mu: 0.3}"},
+                                          {"mixture", "species: [{fraction: 0.5}, {fraction: 0.5, mass: 2}]"}};
+  json_t *all = json_array();
+  gg_entry flow, engine;
+  char yaml[200];
+  for (size_t f = 0; gg_catalogue_entry(GG_CATALOGUE_FLOWS, f, NULL, &flow, NULL) == GG_OK; f++)
+    for (size_t e = 0; gg_catalogue_entry(GG_CATALOGUE_ENGINES, e, NULL, &engine, NULL) == GG_OK; e++)
+      for (size_t g = 0; g < sizeof grains / sizeof *grains; g++) {
+        snprintf(yaml, sizeof yaml, "{flow: %s, phi: 0.1, engine: %s, %s}", flow.name, engine.name, grains[g][1]);
+        json_array_append_new(all, json_pack("{s:s, s:s, s:s, s:o}", "flow", flow.name, "engine", engine.name, "grains",
+                                             grains[g][0], "missing", missing_in(yaml)));
+      }
+  return all;
+}
+
 static json_t *commands_with(unsigned option)
 {
   json_t *names = json_array();
@@ -69,12 +104,13 @@ static json_t *commands(void)
 
 void gg_cli_print_tables(void)
 {
-  json_t *all = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "version", gg_version(), "commands", commands(),
-                          "options", options_of(~0u), "keys", entries(GG_CATALOGUE_KEYS, NULL), "species_keys",
-                          entries(GG_CATALOGUE_SPECIES_KEYS, NULL), "quantities",
+  json_t *all = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "version", gg_version(),
+                          "commands", commands(), "options", options_of(~0u), "keys", entries(GG_CATALOGUE_KEYS, NULL),
+                          "species_keys", entries(GG_CATALOGUE_SPECIES_KEYS, NULL), "quantities",
                           entries_in(GG_CATALOGUE_QUANTITIES, "{flow: usf, phi: 0.1}"), "quantities_without_shear",
                           entries_in(GG_CATALOGUE_QUANTITIES, "{flow: hss, phi: 0.1}"), "theories",
-                          entries(GG_CATALOGUE_THEORIES, NULL));
+                          entries(GG_CATALOGUE_THEORIES, NULL), "flows", entries(GG_CATALOGUE_FLOWS, NULL),
+                          "observables", entries(GG_CATALOGUE_OBSERVABLES, NULL), "support", gg_cli_support());
   json_dumpf(all, stdout, JSON_INDENT(1));
   putchar('\n');
   json_decref(all);

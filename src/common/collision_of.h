@@ -38,7 +38,7 @@ GG_INLINE GG_VECTOR GG_OF(impulse)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR 
   return GG_OF(impulse_of)(rule, c, k, g, gn, c->jn * gn);
 }
 
-/* What kicks add to the normal part of the impulse. */
+/* Normal part of the impulse of kicks. */
 GG_INLINE GG_NUMBER GG_OF(normal_kick)(const GG_CONTACT *c, GG_VECTOR k)
 {
   (void)k; /* no kick depends on the direction */

@@ -117,6 +117,8 @@ typedef struct gg_engine_ops {
   gg_status (*accepts)(const gg_model *model, gg_error *err);
   /* Bytes that an engine of this model will take. */
   double (*bytes)(const gg_model *model);
+  /* Estimated nanoseconds a collision of one processor of 2020 or so, without observables. */
+  double (*nanoseconds)(const gg_model *model);
   /* A new engine at a fresh initial state; it keeps its own copy of the model. */
   gg_status (*create)(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err);
   /* A new engine of this model with these grains, without overlaps. `before` (NULL: none) is an engine with as many of

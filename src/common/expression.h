@@ -31,5 +31,8 @@ double gg_common_expression_value(const gg_expression *e, const double *at);
 /* The same with the same bits everywhere (common/portable_functions.h), and which comparisons and conditions are true,
  * a bit each: where two values have one *branch, no step of a comparison is between them. */
 double gg_common_expression_branch(const gg_expression *e, const double *at, uint64_t *branch);
+/* Mean over an interval of a formula of one variable, with the same bits everywhere; *largest: its largest absolute
+ * value at the ends and at the nodes, NaN if the mean is not finite. */
+double gg_common_expression_mean(const gg_expression *e, double from, double length, double *largest);
 
 #endif

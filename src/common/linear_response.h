@@ -23,6 +23,10 @@ gg_linear_response gg_common_linear_response_of(const gg_model *model);
 /* a* = rate/nu_0(T). */
 double gg_common_reduced_shear_rate(const gg_model *model, double T);
 
+/* Collisions per grain of one sweep of the reduced shear rate: cooling by 2^(2 power), or viscous heating by as much,
+ * in which 1/a*^2 grows by (2/3) eta* a time 1/nu_0, five quarters of a collision; eta* taken as 1. */
+double gg_common_linear_response_length(const gg_model *model);
+
 /* True if a sweep is at its end at this temperature. */
 bool gg_common_linear_response_ends(const gg_model *model, double T);
 

@@ -2,6 +2,7 @@
 #include "common/species.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,4 +41,24 @@ int gg_common_pair_find(const char *name)
   int i = dash ? number(name, (size_t)(dash - name)) : number(name, 1);
   int j = dash ? number(dash + 1, length - (size_t)(dash - name) - 1) : number(name + 1, 1);
   return i < 1 || j < 1 || i > GG_MAX_SPECIES || j > GG_MAX_SPECIES ? -1 : gg_pair(i - 1, j - 1);
+}
+
+void gg_common_species_deal(int64_t n, int n_species, const double *weight, int64_t *n_of)
+{
+  double total = 0, remainder[GG_MAX_SPECIES];
+  for (int i = 0; i < n_species; i++) total += weight[i];
+  int64_t left = n;
+  for (int i = 0; i < n_species; i++) {
+    double exact = (double)n * weight[i] / total;
+    n_of[i] = (int64_t)floor(exact * (1 + 1e-15));
+    remainder[i] = exact - (double)n_of[i];
+    left -= n_of[i];
+  }
+  for (; left > 0; left--) {
+    int next = 0;
+    for (int i = 1; i < n_species; i++)
+      if (remainder[i] > remainder[next]) next = i;
+    n_of[next]++;
+    remainder[next] = -1;
+  }
 }

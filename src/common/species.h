@@ -4,6 +4,7 @@
 #define GG_SPECIES_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 enum { GG_MAX_SPECIES = 16, GG_PAIRS = GG_MAX_SPECIES * (GG_MAX_SPECIES + 1) / 2 };
 
@@ -32,5 +33,8 @@ enum { GG_PAIR_NAME = 16 };
 const char *gg_common_pair_name(int pair, char name[GG_PAIR_NAME]);
 /* The pair of such a name, in either order of its species; "1-2" is 12, too. -1: the pair of no two species. */
 int gg_common_pair_find(const char *name);
+
+/* Whole numbers of n grains by species: the largest remainders are rounded up, among equal ones the first. */
+void gg_common_species_deal(int64_t n, int n_species, const double *weight, int64_t *n_of);
 
 #endif

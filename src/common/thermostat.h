@@ -27,6 +27,12 @@ extern const gg_thermostat_row gg_common_thermostats[GG_N_THERMOSTATS];
 /* How the thermostat in force acts on the grains of this model. */
 gg_heat gg_common_heat_of(const gg_model *model);
 
+/* True if the thermostat, of a given strength or not, is white noise in kicks. */
+static inline bool gg_common_is_kicked(const gg_model *model)
+{
+  return gg_common_thermostats[model->thermostat].heat == GG_HEAT_KICKS;
+}
+
 /* The temperature at which a bath, shear that alone would keep `sheared` (0: none) and the collisions of Maxwellians at
  * ratio0 are in balance: the loss goes as T^(3/2), the work of shear as T^(1/2). Kicks at contact and torques add their
  * power. */

@@ -94,6 +94,8 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err);
 void gg_dsmc_destroy(gg_engine *engine);
 /* Estimated memory of an engine for this model, in bytes. */
 double gg_dsmc_bytes(const gg_model *model);
+/* dsmc_time.c: estimated nanoseconds a collision, also between walls. */
+double gg_dsmc_nanoseconds(const gg_model *model);
 /* Path of the collisions of two species. */
 gg_dsmc_path gg_dsmc_path_of(const gg_dsmc *d, int i, int j);
 /* Set the paths of all pairs of species. */

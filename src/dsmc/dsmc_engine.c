@@ -312,6 +312,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .ensemble = true,
     .accepts = accepts,
     .bytes = bytes,
+    .nanoseconds = gg_dsmc_nanoseconds,
     .create = create,
     .create_with = create_with,
     .destroy = gg_dsmc_destroy,

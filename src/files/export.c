@@ -427,7 +427,7 @@ static gg_status write_trajectory(job *j, gg_file_writer *out, gg_error *err)
   for (size_t k = 0; k < t->n_frames && out->status == GG_OK; k++) {
     GG_TRY(gg_files_stored_trajectory_frame(t, k, &frame, edges, err));
     gg_files_xyz_frame(out, t, &frame, edges);
-    gg_run_frame_free(&frame);
+    gg_measure_frame_free(&frame);
     if (j->progress) j->progress(j->context, (double)(k + 1) / (double)t->n_frames);
   }
   return GG_OK;

@@ -148,7 +148,7 @@ gg_status gg_files_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg
   record header = {.n = frame->n, .holds = holds, .step = frame->step, .time = frame->time};
   header.bytes = size_of(frame->n, holds);
   memcpy(header.word, word, sizeof word);
-  size_t *order = gg_run_frame_order(frame, err);
+  size_t *order = gg_measure_frame_order(frame, err);
   record *r = order ? gg_base_array_new(header.bytes, 1, err) : NULL;
   gg_status status = GG_FAILED;
   if (r) {

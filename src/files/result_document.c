@@ -14,16 +14,10 @@
 #include "run/z_scores.h"
 #include "scene/fields.h"
 
-/* null for what is not finite */
-static json_t *json_number(double x)
-{
-  return isfinite(x) ? json_real(x) : json_null();
-}
-
 static json_t *array(const double *x, size_t n)
 {
   json_t *list = json_array();
-  for (size_t i = 0; i < n; i++) json_array_append_new(list, json_number(x[i]));
+  for (size_t i = 0; i < n; i++) json_array_append_new(list, gg_io_json_finite(x[i]));
   return list;
 }
 
@@ -32,9 +26,9 @@ static json_t *numbers_json(const gg_curve *c)
   json_t *numbers = json_object();
   for (int i = 0; i < c->n_numbers; i++) {
     const gg_curve_number *p = &c->number[i];
-    json_object_set_new(
-        numbers, p->name,
-        json_pack("{s:o, s:o, s:s}", "mean", json_number(p->value), "stderr", json_number(p->error), "unit", p->unit));
+    json_object_set_new(numbers, p->name,
+                        json_pack("{s:o, s:o, s:s}", "mean", gg_io_json_finite(p->value), "stderr",
+                                  gg_io_json_finite(p->error), "unit", p->unit));
   }
   return numbers;
 }
@@ -164,9 +158,9 @@ static json_t *estimate_json(const gg_result *r, const gg_quantity_row *row, jso
   else if (isnan(e->error))
     add_reason(warnings, "stderr", row->name, e->reason[0] ? e->reason : "too few samples");
   json_t *json =
-      json_pack("{s:o, s:o, s:s, s:I, s:o, s:s}", "mean", json_number(e->mean), "stderr", json_number(e->error), "unit",
-                row->unit, "samples", (json_int_t)e->samples, "correlation_time", json_number(e->correlation_time),
-                "correlation_time_unit", r->correlation_time_unit);
+      json_pack("{s:o, s:o, s:s, s:I, s:o, s:s}", "mean", gg_io_json_finite(e->mean), "stderr",
+                gg_io_json_finite(e->error), "unit", row->unit, "samples", (json_int_t)e->samples, "correlation_time",
+                gg_io_json_finite(e->correlation_time), "correlation_time_unit", r->correlation_time_unit);
   if (isnan(e->mean)) json_object_set_new(json, "reason", json_string(e->reason));
   if (row->quantity >= GG_N_QUANTITIES) json_object_set_new(json, "doc", json_string(row->doc));
   return json;
@@ -175,17 +169,17 @@ static json_t *estimate_json(const gg_result *r, const gg_quantity_row *row, jso
 static json_t *engine_state_json(const gg_result *r)
 {
   const gg_engine_state *s = &r->engine_state;
-  json_t *state = json_pack("{s:o, s:I}", "time", json_number(s->time), "events", (json_int_t)s->events);
+  json_t *state = json_pack("{s:o, s:I}", "time", gg_io_json_finite(s->time), "events", (json_int_t)s->events);
   if (strcmp(r->engine, "md") == 0) {
     json_object_set_new(state, "contact_time_collisions", json_integer((json_int_t)s->treated));
     if (r->scene->fixed.contact_time != GG_AUTO)
-      json_object_set_new(state, "contact_time", json_number(r->scene->fixed.contact_time));
-    json_object_set_new(state, "worst_overlap", json_number(s->worst_overlap));
+      json_object_set_new(state, "contact_time", gg_io_json_finite(r->scene->fixed.contact_time));
+    json_object_set_new(state, "worst_overlap", gg_io_json_finite(s->worst_overlap));
   } else {
     json_object_set_new(state, "majorant_overflows", json_integer((json_int_t)s->overflows));
-    json_object_set_new(state, "time_step", json_number(s->time_step));
-    json_object_set_new(state, "time_step_bias", json_number(s->time_step_bias));
-    json_object_set_new(state, "particles_bias", json_number(s->particles_bias));
+    json_object_set_new(state, "time_step", gg_io_json_finite(s->time_step));
+    json_object_set_new(state, "time_step_bias", gg_io_json_finite(s->time_step_bias));
+    json_object_set_new(state, "particles_bias", gg_io_json_finite(s->particles_bias));
   }
   if (r->model.law.e || gg_speed_laws_any(&r->model.by_speed, gg_pairs_of(r->model.n_species)))
     json_object_set_new(state, "law_clamped", json_integer((json_int_t)s->clamped));
@@ -201,16 +195,16 @@ static json_t *run_document(const gg_result *r)
     if (gg_files_quantity_is_measured(&r->value[row->quantity]))
       json_object_set_new(results, row->name, estimate_json(r, row, warnings));
   }
-  json_t *document =
-      json_pack("{s:s, s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:{s:I, s:o, s:o}, s:o, s:o, s:o}", "graingas",
-                gg_base_build_version, "build", gg_base_build_identity, "scene", gg_scene_json(r->scene), "engine",
-                r->engine, "steady", gg_run_is_steady(r->steadiness), "verdict", r->steadiness_text, "particles",
-                (json_int_t)r->model.n, "collisions", (json_int_t)r->averaging.collisions, "cpu_seconds",
-                json_number(r->averaging.cpu_seconds), "total", "collisions", (json_int_t)r->total.collisions,
-                "cpu_seconds", json_number(r->total.cpu_seconds), "wall_seconds", json_number(r->total.wall_seconds),
-                "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
+  json_t *document = json_pack(
+      "{s:s, s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:{s:I, s:o, s:o}, s:o, s:o, s:o}", "graingas",
+      gg_base_build_version, "build", gg_base_build_identity, "scene", gg_scene_json(r->scene), "engine", r->engine,
+      "steady", gg_run_is_steady(r->steadiness), "verdict", r->steadiness_text, "particles", (json_int_t)r->model.n,
+      "collisions", (json_int_t)r->averaging.collisions, "cpu_seconds", gg_io_json_finite(r->averaging.cpu_seconds),
+      "total", "collisions", (json_int_t)r->total.collisions, "cpu_seconds", gg_io_json_finite(r->total.cpu_seconds),
+      "wall_seconds", gg_io_json_finite(r->total.wall_seconds), "engine_state", engine_state_json(r), "results",
+      results, "warnings", warnings);
   if (r->steadiness == GG_METASTABLE) json_object_set_new(document, "metastable", json_true());
-  if (isfinite(r->escape_rate)) json_object_set_new(document, "escape_rate", json_number(r->escape_rate));
+  if (isfinite(r->escape_rate)) json_object_set_new(document, "escape_rate", gg_io_json_finite(r->escape_rate));
   if (*r->ensemble_text) json_object_set_new(document, "particles_chosen", json_string(r->ensemble_text));
   if (r->curves.n) json_object_set_new(document, "curves", gg_files_curves_json(&r->curves));
   return document;
@@ -342,7 +336,7 @@ static json_t *row_json(const gg_comparison *c, const gg_quantity_row *named, js
   for (int k = 0; k < GG_N_ENGINES; k++) some |= isfinite(row.mean[k]);
   if (!some) return NULL;
   json_t *json = json_pack("{s:s, s:s, s:o, s:b}", "quantity", row.name, "unit", row.unit, "md_dsmc_z",
-                           json_number(row.z), "beyond_expected", row.beyond);
+                           gg_io_json_finite(row.z), "beyond_expected", row.beyond);
   if (!isfinite(row.z)) add_reason(warnings, "md_dsmc_z", row.name, "the mean or error of an engine is unknown");
   for (int k = 0; k < GG_N_ENGINES; k++)
     if (isfinite(row.mean[k])) put_deviations(json, c, k, named, warnings);

@@ -40,6 +40,11 @@ double gg_io_json_number(const json_t *object, const char *key)
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
+json_t *gg_io_json_finite(double x)
+{
+  return isfinite(x) ? json_real(x) : json_null();
+}
+
 typedef struct source {
   const char *text;
   bool lacked;

@@ -21,6 +21,8 @@ json_t *gg_io_json_read(const char *text, const char **why);
 /* Value of a member of an object: "" and NaN where there is no such value, or no object. */
 const char *gg_io_json_string(const json_t *object, const char *key);
 double gg_io_json_number(const json_t *object, const char *key);
+/* A number; null for what is not finite. */
+json_t *gg_io_json_finite(double x);
 
 /* json_sprintf, with a decimal point in every locale. */
 json_t *gg_io_json_format(const char *format, ...) GG_PRINTF(1, 2);

@@ -305,6 +305,7 @@ const gg_engine_ops gg_md_ops = {
     .doc = "event-driven molecular dynamics of hard spheres",
     .accepts = gg_md_accepts,
     .bytes = gg_md_bytes,
+    .nanoseconds = gg_md_nanoseconds,
     .create = create,
     .create_with = create_with,
     .destroy = destroy,

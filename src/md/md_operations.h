@@ -11,6 +11,9 @@ gg_status gg_md_accepts(const gg_model *model, gg_error *err);
 /* md_describe.c */
 void gg_md_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
 
+/* md_time.c: estimated nanoseconds a collision. */
+double gg_md_nanoseconds(const gg_model *model);
+
 /* md_snapshot.c */
 void gg_md_snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context);
 

@@ -6,7 +6,7 @@
  *
  * An observable borrows the model of its gas. In a transient run the scene's `protocol` changes that model in place,
  * between two samples: coefficients of collisions, bath, thermostat, shear rate, and the values that follow from
- * them (gg_run_is_same_gas: grains, box and units stay). Bins are then reset, and `restart` is called. So an
+ * them (gg_common_is_same_gas: grains, box and units stay). Bins are then reset, and `restart` is called. So an
  * observable keeps no copy of members that may change, except for values that it derives in `restart`. */
 #ifndef GG_OBSERVABLE_H
 #define GG_OBSERVABLE_H

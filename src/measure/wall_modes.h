@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The long waves across the gap between walls: slow fluctuations that no mean over all grains shows. A run stores
- * them as a series, from which it determines how long it has to average (run/slow_modes.c). They come from the slabs
- * of the local frame, which every sample computes anyway. */
+ * them as a series, from which it determines how long it has to average (measure/slow_modes.c). They come from the
+ * slabs of the local frame, which every sample computes anyway. */
 #ifndef GG_WALL_MODES_H
 #define GG_WALL_MODES_H
 

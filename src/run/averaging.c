@@ -67,9 +67,10 @@ static void check_runaway(gg_replicas *all)
   for (int i = 0; i < all->n; i++) {
     const gg_replica *r = &all->replica[i];
     gg_function f;
-    const int k = gg_run_replica_find_function(r, GG_Q_TEMPERATURE_RATIO, &f);
+    const int k = gg_measure_sampler_find(&r->sampler, GG_Q_TEMPERATURE_RATIO, &f);
     if (k < 0 || r->series.n == 0) continue;
-    const double ratio = gg_function_value(f, gg_series_row(&r->series, r->series.n - 1) + r->offset[k], &r->model);
+    const double ratio =
+        gg_function_value(f, gg_series_row(&r->series, r->series.n - 1) + r->sampler.offset[k], &r->model);
     if (ratio >= most) all->state.runaway = ratio;
   }
 }
@@ -122,12 +123,12 @@ static gg_status open_window(gg_replicas *all, gg_error *err)
   for (int i = 0; i < all->n; i++) GG_TRY(gg_run_replica_open_window(&all->replica[i], err));
   gg_run_distribution_changed(&all->tasks);
   if (!all->state.averaging) gg_run_progress_new_phase(&all->progress);
-  gg_run_progress_open_window(&all->progress);
+  gg_statistics_forecast_open_window(&all->progress.forecast);
   all->estimated_at = 0;
   all->state.averaging = 1;
   all->state.exact = 0;
   all->state.window_at = all->state.due;
-  all->state.goal = all->state.due + gg_run_criteria_next_test(&all->criteria, all->state.restarts, NULL);
+  all->state.goal = all->state.due + gg_statistics_rule_next_test(&all->criteria, all->state.restarts, NULL);
   return GG_OK;
 }
 
@@ -143,10 +144,10 @@ static gg_window_test test_of(const gg_replicas *all, const gg_convergence *c, u
 /* True if the window is long and exact enough. Records whether it was exact, for the next test. */
 static bool finished(gg_replicas *all, const gg_window_test *t)
 {
-  if (gg_run_criteria_end(&all->criteria, all->state.restarts, t->window)) return true;
+  if (gg_statistics_rule_ends(&all->criteria, all->state.restarts, t->window)) return true;
   bool before = all->state.exact;
   all->state.exact = t->exact;
-  return gg_run_criteria_are_met(t, before);
+  return gg_statistics_rule_is_met(t, before);
 }
 
 /* Warm up. Averaging keeps the last sampling interval, so the warm-up is extended until the intervals fit the collision
@@ -181,14 +182,15 @@ gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
     GG_TRY(gg_run_replicas_convergence(all, &c, err));
     gg_run_progress_record_errors(&all->progress, (double)window, &c);
     gg_window_test test = test_of(all, &c, window);
-    if (c.trending && gg_run_criteria_restart(&all->criteria, all->state.restarts) && window >= all->criteria.least) {
+    if (c.trending && gg_statistics_rule_restarts(&all->criteria, all->state.restarts) &&
+        window >= all->criteria.least) {
       all->state.restarts++;
       GG_TRY(open_window(all, err));
     } else if (finished(all, &test)) {
       gg_run_replicas_report_progress(all, true); /* with the final errors */
       return GG_OK;
     } else {
-      all->state.goal = all->state.window_at + gg_run_criteria_next_test(&all->criteria, all->state.restarts, &test);
+      all->state.goal = all->state.window_at + gg_statistics_rule_next_test(&all->criteria, all->state.restarts, &test);
     }
   }
   gg_run_replicas_report_progress(all, true);

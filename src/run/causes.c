@@ -9,201 +9,7 @@
 #include "run/default_size.h"
 #include "run/z_scores.h"
 #include "scene/scene.h"
-#include "theory/goldhirsch_zanetti1993.h"
-
-/* Waves of a homogeneous gas near its instability may be a few times those of an elastic one: sheared, e = 0.5, 1000
- * grains, three times. */
-#define STRUCTURED 4.0
-
-static bool is_raised(const gg_estimate *waves)
-{
-  const double error = isfinite(waves->error) ? waves->error : 0;
-  return waves->mean - 2 * error > STRUCTURED;
-}
-
-static bool has_waves(const gg_result *r)
-{
-  return isfinite(r->value[GG_Q_DENSITY_WAVES].mean) && r->value[GG_Q_DENSITY_WAVES].mean > 0;
-}
-
-bool gg_run_structure(const gg_result *r, char *text, size_t size)
-{
-  const gg_estimate *density = &r->value[GG_Q_DENSITY_WAVES], *momentum = &r->value[GG_Q_MOMENTUM_WAVES];
-  if (!has_waves(r)) return false;
-  if (is_raised(density))
-    snprintf(text, size,
-             "the grains have clustered: density waves of the box's length are %.2g times those of a homogeneous gas, "
-             "shear waves %.2g times",
-             density->mean, momentum->mean);
-  else if (is_raised(momentum))
-    snprintf(text, size,
-             "the gas swirls: shear waves of the box's length are %.2g times those of a homogeneous gas, density waves "
-             "%.2g times",
-             momentum->mean, density->mean);
-  else
-    return false;
-  return true;
-}
-
-/* A difference of md from Enskog's equation that needs an explanation. */
-typedef struct difference {
-  const gg_model *model;
-  const gg_result *md;
-  gg_quantity q;
-  bool homogeneous; /* no structure was measured; else structure is the cause, and several others are skipped */
-  double by;        /* relative difference; absolute for quantities about zero */
-} difference;
-
-/* 1: the quantity grows with the energy of the grains; -1: it falls; 0: neither is known. */
-static int follows_energy(gg_quantity q)
-{
-  switch (q) {
-  case GG_Q_TEMPERATURE:
-  case GG_Q_ROTATIONAL_TEMPERATURE:
-  case GG_Q_PRESSURE:
-  case GG_Q_SHEAR_VISCOSITY:
-  case GG_Q_COLLISION_RATE: return 1;
-  case GG_Q_COOLING_RATE: return -1;
-  default: return 0;
-  }
-}
-
-/* Each writes its sentence and returns true where it applies to this difference. */
-typedef bool cause(const difference *d, char *text, size_t size);
-
-static bool not_steady(const difference *d, char *text, size_t size)
-{
-  if (d->md->steadiness != GG_NOT_STEADY) return false;
-  snprintf(text, size, "md has no steady mean: %s", d->md->steadiness_text);
-  return true;
-}
-
-/* Quantities that do not depend on velocities of single grains are the same in any frame. */
-static bool about_cells(const difference *d, char *text, size_t size)
-{
-  if (!d->model->frame || d->q == GG_Q_COLLISION_RATE || d->q == GG_Q_DISSIPATION) return false;
-  snprintf(text, size,
-           "md's velocities are relative to the means of cells (frame), those of Monte Carlo and theories to "
-           "the imposed flow");
-  return true;
-}
-
-static bool structured(const difference *d, char *text, size_t size)
-{
-  char what[240];
-  if (!gg_run_structure(d->md, what, sizeof what)) return false;
-  snprintf(text, size, "%s; %lld grains, default %lld; a Monte Carlo ensemble stays homogeneous", what,
-           (long long)d->model->n, (long long)gg_run_default_size(d->md->scene));
-  return true;
-}
-
-/* Shear waves decay slowly near their instability; they respond to the shear and so raise the viscosity. */
-static bool waves_respond(const difference *d, char *text, size_t size)
-{
-  const gg_estimate *waves = &d->md->value[GG_Q_MOMENTUM_WAVES];
-  if (!(d->model->linear_response && waves->mean - 2 * waves->error > 1.5)) return false;
-  snprintf(
-      text, size,
-      "shear waves of the box's length, %.2g times those of a homogeneous gas, answer the shear, too: in a smaller "
-      "box the viscosity is lower",
-      waves->mean);
-  return true;
-}
-
-/* Results of versions that did not measure waves. */
-static bool may_be_structured(const difference *d, char *text, size_t size)
-{
-  const gg_model *m = d->model;
-  const double L = gg_theory_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
-  if (m->walled || has_waves(d->md) || !(edge > (m->shear_rate != 0 ? 3 : 1) * L)) return false;
-  snprintf(
-      text, size,
-      "the box, %.3g d, is longer than the length above which this gas forms clusters or vortices, %.3g d; a Monte "
-      "Carlo ensemble stays homogeneous",
-      edge, L);
-  return true;
-}
-
-/* Collisions without loss leave more energy; a share of them cannot change it many times over. */
-static bool treated(const difference *d, char *text, size_t size)
-{
-  const gg_engine_state *s = &d->md->engine_state;
-  const double share = s->collisions ? (double)s->treated / (double)s->collisions : 0;
-  if (!(share > 1e-3 && d->by * follows_energy(d->q) > 0 && fabs(d->by) < 10 * share)) return false;
-  snprintf(text, size, "%.2g %% of md's collisions fell under the contact-time rule and lost no energy", 100 * share);
-  return true;
-}
-
-static bool number_of_grains(const difference *d, char *text, size_t size)
-{
-  const gg_model *m = d->model;
-  if (!(d->homogeneous && m->shear_rate != 0 && m->phi > 0.01 && m->phi <= 0.3 && follows_energy(d->q) > 0 &&
-        d->by > 0 && d->by < 0.4))
-    return false;
-  snprintf(
-      text, size,
-      "number of grains, %lld here (default %lld): md's T rises from 200 grains to 8000 by a few per cent, at phi = "
-      "0.1 and e = 0.7 by a fifth or more; compare at equal numbers",
-      (long long)m->n, (long long)gg_scene_defaults().particles);
-  return true;
-}
-
-static bool hot_spins(const difference *d, char *text, size_t size)
-{
-  const gg_model *m = d->model;
-  if (!(d->homogeneous && m->rule == GG_ROUGH && d->q == GG_Q_TEMPERATURE_RATIO && m->phi > 0.05 && d->by > 0 &&
-        d->by < 0.2))
-    return false;
-  snprintf(text, size,
-           "rough grains: velocities and spins are correlated, so that theta/T in md lies above Enskog's, by some 9 %% "
-           "at phi = 0.3 and beta = 0");
-  return true;
-}
-
-static bool correlated(const difference *d, char *text, size_t size)
-{
-  const gg_model *m = d->model;
-  const bool dense = m->phi > 0.3, moderate = m->phi > 0.05 && !m->elastic && fabs(d->by) < 0.3;
-  if (!d->homogeneous || (!dense && !moderate)) return false;
-  snprintf(text, size,
-           "velocities of neighbours are correlated before they collide, which Enskog's equation leaves out; the more "
-           "so the denser and the more dissipative the gas");
-  return true;
-}
-
-/* hss, e = 0.8, phi = 0.1: md's rate of collisions is 1.2, 4.9 and 9.8 % above Enskog's where a grain goes 1.8, 0.49
- * and 0.2 diameters until the bath turns it; T agrees. */
-#define FAR_WAY 3
-static bool meets_again(const difference *d, char *text, size_t size)
-{
-  const gg_model *m = d->model;
-  const double T = d->md->value[GG_Q_TEMPERATURE].mean;
-  const bool of_collisions = d->q == GG_Q_COLLISION_RATE || d->q == GG_Q_MEAN_FREE_PATH || d->q == GG_Q_KNUDSEN;
-  const double way = sqrt(isfinite(T) ? T : m->temperature0) / m->bath.drag[0];
-  if (!(d->homogeneous && m->bath.drag[0] > 0 && m->shear_rate == 0 && of_collisions && way < FAR_WAY &&
-        d->by * (d->q == GG_Q_COLLISION_RATE ? 1 : -1) > 0 && fabs(d->by) < 0.4))
-    return false;
-  snprintf(
-      text, size,
-      "the bath turns a grain after sqrt(T)/drag = %.2g d, so that grains that have met meet again: md collides more "
-      "often than Enskog's equation has, at phi = 0.1 by 5 %% where that way is 0.5 d, by 10 %% at 0.2 d",
-      way);
-  return true;
-}
-
-static bool at_walls(const difference *d, char *text, size_t size)
-{
-  if (!d->model->walled || fabs(d->by) > 0.3) return false;
-  snprintf(text, size,
-           "near walls grains meet again after one returns from the wall, which Enskog's equation leaves out, and "
-           "layers order "
-           "along it, which Monte Carlo has shallower: at phi = 0.3 the first minimum is 0.27 in it, 0.24 in md");
-  return true;
-}
-
-static cause *const causes_known[] = {not_steady,        about_cells, structured,       waves_respond,
-                                      may_be_structured, treated,     number_of_grains, hot_spins,
-                                      correlated,        meets_again, at_walls};
+#include "theory/md_causes.h"
 
 static const char unknown[] = "no known cause";
 
@@ -217,24 +23,41 @@ static double size_of(const gg_comparison *c, gg_quantity q)
   return isfinite(d.deviation) ? d.deviation : d.difference;
 }
 
-/* Add the sentence unless it is in the list. Returns 1, the number of causes that apply. */
-static int add(gg_causes *causes, const char *text)
+/* Add the sentence unless it is in the list. */
+static void add(void *list, const char *text)
 {
+  gg_causes *causes = list;
   for (int i = 0; i < causes->n; i++)
-    if (strcmp(causes->text[i], text) == 0) return 1;
+    if (strcmp(causes->text[i], text) == 0) return;
   if (causes->n < GG_MOST_CAUSES) snprintf(causes->text[causes->n++], sizeof *causes->text, "%s", text);
-  return 1;
+}
+
+static gg_mean mean_of(const gg_result *r, gg_quantity q)
+{
+  return (gg_mean){.mean = r->value[q].mean, .error = r->value[q].error};
+}
+
+bool gg_run_structure(const gg_result *r, char *text, size_t size)
+{
+  const gg_mean density = mean_of(r, GG_Q_DENSITY_WAVES), momentum = mean_of(r, GG_Q_MOMENTUM_WAVES);
+  return gg_theory_structure(&density, &momentum, text, size);
 }
 
 static int add_known(const gg_comparison *c, gg_quantity q, gg_causes *causes)
 {
-  char text[sizeof *causes->text];
   const gg_result *md = c->by_engine[GG_MD];
-  const difference d = {&c->model, md, q, !gg_run_structure(md, text, sizeof text), size_of(c, q)};
-  int n = 0;
-  for (size_t i = 0; i < sizeof causes_known / sizeof *causes_known; i++)
-    if (causes_known[i](&d, text, sizeof text)) n += add(causes, text);
-  return n;
+  const gg_engine_state *s = &md->engine_state;
+  const gg_theory_difference d = {.model = &c->model,
+                                  .q = q,
+                                  .by = size_of(c, q),
+                                  .unsteady = md->steadiness == GG_NOT_STEADY ? md->steadiness_text : NULL,
+                                  .T = md->value[GG_Q_TEMPERATURE].mean,
+                                  .density_waves = mean_of(md, GG_Q_DENSITY_WAVES),
+                                  .momentum_waves = mean_of(md, GG_Q_MOMENTUM_WAVES),
+                                  .treated = s->collisions ? (double)s->treated / (double)s->collisions : 0,
+                                  .default_size = gg_run_default_size(md->scene),
+                                  .usual_size = gg_scene_defaults().particles};
+  return gg_theory_md_causes(&d, add, causes);
 }
 
 void gg_run_causes_of(const gg_comparison *c, gg_quantity q, gg_causes *causes)

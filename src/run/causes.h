@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Why md differs from Enskog's equation by more than expected, derived from what a run measured. A cause is given to a
- * difference only where it can have this sign and this size. */
+/* Why md differs from Enskog's equation by more than expected (theory/md_causes.h), in a comparison. */
 #ifndef GG_CAUSES_H
 #define GG_CAUSES_H
 
 #include "common/model.h"
 #include "run/result.h"
+#include "theory/md_causes.h"
 
 struct gg_comparison;
 
 enum { GG_MOST_CAUSES = 8 };
 typedef struct gg_causes { /* a sentence each */
   int n;
-  char text[GG_MOST_CAUSES][320];
+  char text[GG_MOST_CAUSES][GG_CAUSE_TEXT];
 } gg_causes;
 
 /* Causes of one quantity. A marked quantity (gg_run_results_disagree) has at least one sentence, if only that no cause
@@ -23,7 +23,7 @@ void gg_run_causes_of(const struct gg_comparison *comparison, gg_quantity q, gg_
  * */
 void gg_run_causes_find(const struct gg_comparison *comparison, gg_causes *causes);
 
-/* "the grains have clustered: ..."; false where the gas is homogeneous, or it is unknown. Returns text. */
+/* "the grains have clustered: ..."; false where the gas is homogeneous, or it is unknown. */
 bool gg_run_structure(const gg_result *result, char *text, size_t size);
 
 #endif

@@ -20,7 +20,7 @@ static int append(const gg_replicas *all, gg_quantity q, gg_quantity *list, int 
   gg_function f;
   for (int i = 0; i < n; i++)
     if (list[i] == q) return n;
-  if (gg_run_replica_find_function(&all->replica[0], q, &f) >= 0) list[n++] = q;
+  if (gg_measure_sampler_find(&all->replica[0].sampler, q, &f) >= 0) list[n++] = q;
   return n;
 }
 
@@ -54,7 +54,7 @@ static void note_error(const gg_replicas *all, gg_quantity q, const gg_mean *m, 
 static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *trend, gg_error *err)
 {
   gg_function f;
-  const int k = gg_run_replica_find_function(&all->replica[0], q, &f);
+  const int k = gg_measure_sampler_find(&all->replica[0].sampler, q, &f);
   *trend = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
   size_t n = gg_series_window_rows(&all->replica[0].series);
   if (k < 0 || n < 24) return GG_OK;
@@ -64,7 +64,7 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
     const gg_replica *p = &all->replica[r];
     for (size_t i = 0; i < n; i++)
       y[(size_t)r * n + i] =
-          gg_function_value(f, gg_series_row(&p->series, p->series.window + i) + p->offset[k], &all->model);
+          gg_function_value(f, gg_series_row(&p->series, p->series.window + i) + p->sampler.offset[k], &all->model);
   }
   gg_status status = gg_statistics_trend_test(y, n, (size_t)all->n, trend, err);
   free(y);

@@ -6,74 +6,16 @@
 #include "base/memory.h"
 #include "run/replicas.h"
 #include "run/series_means.h"
+#include "statistics/covariance.h"
 
 /* Rows of all replicas are averaged into so many: estimates of all pairs cost little, and blocks of ten correlation
  * times are longer still. */
 enum { ROWS = 256 };
-/* A mean is measured in itself, since most combinations are ratios and products; nearer to zero in its error. */
-#define NEAR_ZERO 10
-
-typedef struct varying {
-  const double *row; /* linear response */
-  double unit;
-  double variance; /* of the mean, in that unit squared: its error as reported */
-  double enlarged; /* this over the estimate from these rows */
-  double memory;   /* correlation time in rows */
-} varying;
-
 typedef struct varyings {
   size_t n, n_rows, n_runs; /* n_rows: of each run */
   double *rows, *sum;       /* n n_rows n_runs; scratch for one */
-  varying *of;
+  gg_varying *of;
 } varyings;
-
-static gg_status prepare(varying *v, const varyings *all, const gg_estimate *e, const double *row, gg_error *err)
-{
-  gg_mean m;
-  GG_TRY(gg_statistics_estimate_scalar(row, all->n_rows, all->n_runs, &m, err));
-  *v = (varying){.row = row, .unit = fabs(e->mean) > NEAR_ZERO * e->error ? e->mean : e->error};
-  v->variance = pow(e->error / v->unit, 2);
-  v->enlarged = pow(e->error / m.error, 2);
-  v->memory = m.correlation_rows;
-  return GG_OK;
-}
-
-/* Variance of the mean of a + sign b, enlarged as the errors of both are. */
-static gg_status variance_of_sum(const varyings *all, const varying *a, const varying *b, int sign, double *variance,
-                                 gg_error *err)
-{
-  gg_mean m;
-  const size_t total = all->n_rows * all->n_runs;
-  for (size_t i = 0; i < total; i++) all->sum[i] = a->row[i] / a->unit + sign * b->row[i] / b->unit;
-  GG_TRY(gg_statistics_estimate_made_of(all->sum, all->n_rows, all->n_runs, fmax(a->memory, b->memory), &m, err));
-  *variance = m.error * m.error * sqrt(a->enlarged * b->enlarged);
-  return GG_OK;
-}
-
-/* True if the two means rise and fall together. */
-static bool go_together(const varyings *all, const varying *a, const varying *b)
-{
-  double sum = 0;
-  for (size_t i = 0; i < all->n_rows * all->n_runs; i++) sum += a->row[i] / a->unit * (b->row[i] / b->unit);
-  return sum > 0;
-}
-
-/* Correlation coefficient of two means. If they vary together, their difference has a small variance, which would be
- * lost in the inaccuracy of both errors. So the covariance is chosen such that the difference has the variance of its
- * own series of blocks. For means that vary oppositely, the sum is used. */
-static gg_status coefficient_of(const varyings *all, const varying *a, const varying *b, double *coefficient,
-                                gg_error *err)
-{
-  double variance;
-  *coefficient = 0;
-  if (!(a->variance > 0 && b->variance > 0)) return GG_OK; /* a constant */
-  const int sign = go_together(all, a, b) ? -1 : 1;
-  GG_TRY(variance_of_sum(all, a, b, sign, &variance, err));
-  if (!isfinite(variance)) return GG_OK;
-  const double covariance = sign * (variance - a->variance - b->variance) / 2 * (a->unit * b->unit < 0 ? -1 : 1);
-  *coefficient = fmax(-1, fmin(covariance / sqrt(a->variance * b->variance), 1));
-  return GG_OK;
-}
 
 static gg_status fill(const gg_replicas *replicas, size_t length, varyings *all, gg_result *r, gg_error *err)
 {
@@ -81,10 +23,12 @@ static gg_status fill(const gg_replicas *replicas, size_t length, varyings *all,
   for (size_t i = 0; i < c->n; i++) {
     double *row = all->rows + i * all->n_rows * all->n_runs;
     GG_TRY(gg_run_replicas_blocks(replicas, c->quantity[i], length, row, err));
-    GG_TRY(prepare(&all->of[i], all, &r->value[c->quantity[i]], row, err));
+    const gg_estimate *e = &r->value[c->quantity[i]];
+    GG_TRY(gg_statistics_varying_make(&all->of[i], e->mean, e->error, row, all->n_rows, all->n_runs, err));
     c->coefficient[i * c->n + i] = 1;
     for (size_t j = 0; j < i; j++) {
-      GG_TRY(coefficient_of(all, &all->of[i], &all->of[j], &c->coefficient[i * c->n + j], err));
+      GG_TRY(gg_statistics_correlation_coefficient(&all->of[i], &all->of[j], all->n_rows, all->n_runs, all->sum,
+                                                   &c->coefficient[i * c->n + j], err));
       c->coefficient[j * c->n + i] = c->coefficient[i * c->n + j];
     }
   }

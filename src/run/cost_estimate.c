@@ -7,15 +7,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "common/linear_response.h"
-#include "common/relaxation_times.h"
-#include "common/thermostat.h"
 #include "measure/observable.h"
 #include "run/protocol_times.h"
 #include "run/replica.h"
 #include "run/replicas.h"
 #include "scene/model_of_scene.h"
-#include "theory/theory_list.h"
+#include "theory/effort.h"
 
 #define PROGRAM 18e6 /* bytes: the program and its libraries */
 #define BLOCKS 0.5e6 /* of the bins of an observable, in blocks */
@@ -25,60 +22,6 @@ static unsigned measured(const gg_scene *scene, const gg_model *m)
 {
   unsigned flags;
   return gg_run_measured(scene, m, &flags, NULL) == GG_OK ? flags : scene->measure;
-}
-
-/* Cells are as wide as the largest grain: how many more grains there are in one than of equal ones. */
-static double crowding(const gg_model *m)
-{
-  double cubes = 0;
-  for (int i = 0; i < m->n_species; i++) cubes += pow(m->diameter[i], 3) * (double)m->n_of[i] / (double)m->n;
-  return pow(gg_common_model_widest(m), 3) / cubes;
-}
-
-/* A kick is nearly a collision's work, in a thin gas less, and there are more the more energy is lost (md/kicks.h). */
-static double cost_of_kicks(const gg_model *m)
-{
-  const double slots = m->shear_rate != 0 ? 25 : 5, rate = gg_common_model_collision_rate(m, m->temperature0);
-  double mass = 0;
-  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
-  const double loss = mass * gg_common_thermostat_noise(m) / m->temperature0 / rate;
-  if (m->bath.drag[0] != 0) return 1 + fmax(fmin(8 * loss, 1), 0.4 * slots * fabs(m->bath.drag[0]) / rate);
-  return gg_common_thermostats[m->thermostat].heat == GG_HEAT_KICKS ? 1 + fmin(7 * loss, 1.1) : 1;
-}
-
-/* Nanoseconds a collision. The thinner the gas the more cells are crossed between two; out of cache beyond some
- * thousand grains; walls are met, too, and parabolas cost more than straight lines. */
-static double pace_of_md(const gg_model *m)
-{
-  const double cells = 180 + 115 / sqrt(fmax(m->phi, 1e-12)), cache = 1 + 0.2 * fmax(0, log((double)m->n / 2000));
-  return cells * cache * crowding(m) * cost_of_kicks(m) * (m->walled ? 1.2 : 1);
-}
-
-/* Nanoseconds a collision of two species: one by one where either has too few grains for blocks of eight
- * (gg_dsmc_choose_path), or where a law of restitution is the user's. */
-static double pace_of_pair(const gg_model *m, int i, int j)
-{
-  enum { FEWEST_IN_BLOCKS = 793 }; /* a hundred blocks */
-  const bool blocks = m->n_of[i] >= FEWEST_IN_BLOCKS && m->n_of[j] >= FEWEST_IN_BLOCKS && !m->law.e &&
-                      !gg_model_friction_by_speed(m, gg_pair(i, j));
-  return blocks ? (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-(double)m->n / 1000)) : 330;
-}
-
-/* Between walls grains fly, too. Each pair of species is a sweep of its own, with its share of the collisions; noise is
- * drawn. */
-static double pace_of_dsmc(const gg_model *m)
-{
-  double sum = 0, rates = 0;
-  if (m->walled) return m->rule == GG_SMOOTH ? 150 : 200;
-  for (int i = 0; i < m->n_species; i++)
-    for (int j = 0; j < m->n_species; j++) {
-      const int q = gg_pair(i, j);
-      const double rate = m->fraction[i] * m->fraction[j] * m->sigma[q] * m->sigma[q] * m->chi[q] *
-                          sqrt(1 / m->mass[i] + 1 / m->mass[j]);
-      sum += rate * pace_of_pair(m, i, j), rates += rate;
-    }
-  const double pairs = 0.5 + 0.5 * m->n_species;
-  return sum / rates * pairs + (m->bath.on || gg_common_heat_of(m) == GG_HEAT_KICKS ? 30 : 0);
 }
 
 /* Add memory of snapshots and observables, and time of observables. The time of rheology is part of the engine's. */
@@ -101,42 +44,13 @@ static void add_observables(gg_cost_estimate *f, const gg_scene *scene, const gg
   f->observables += vectors * sizeof(gg_vec) * (double)m->n;
 }
 
-/* Collisions per grain that the stress needs, times N error^2, measured in runs of 1000 to 4000 grains: some fifty
- * times the variance of one grain. eta* of a linear response is a slope over a*, fitted beside that of a*^3; half of
- * each sweep of a gas that cools is its beginning. */
-static double for_stress(const gg_model *m)
-{
-  if (m->linear_response) {
-    const gg_linear_response range = gg_common_linear_response_of(m);
-    return (range.cools ? 60 : 30) / (range.high * range.high);
-  }
-  if (gg_common_thermostats[m->thermostat].heat == GG_HEAT_KICKS && m->shear_rate != 0)
-    return 650;              /* the stress is small beside the pressure */
-  if (m->walled) return 400; /* fluctuates along with the slow waves across the gap */
-  return m->shear_rate != 0 ? 130 : 5;
-}
-
-/* Collisions per grain times N error^2 for N1, N2 and a2, which may be small: their absolute scatter is sqrt(12) and
- * sqrt(2.5), whatever the mean. The mean is estimated by a theory. 0: another quantity, or no theory. */
-static double for_small(const gg_model *m, gg_quantity q)
-{
-  const bool difference = gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
-  const gg_theory *theory = difference ? &gg_theory_gaussian_closure : &gg_theory_garzo_dufty1999;
-  gg_theory_answer answer;
-  if (!difference && q != GG_Q_A2) return 0;
-  if (gg_theory_evaluate(theory, m, &answer, NULL) != GG_OK || !isfinite(answer.value[q])) return 0;
-  return (difference ? 12 : 2.5) / (answer.value[q] * answer.value[q]);
-}
-
-/* Collisions per grain until all requested errors are reached. The slowest is the stress, a small quantity, or the
- * temperature, which fluctuates by sqrt(2/3N) with its relaxation time. */
+/* Collisions per grain until all requested errors are reached. */
 static double for_error(const gg_scene *scene, const gg_model *m)
 {
-  const double usual = fmax(for_stress(m), 2 * gg_common_model_relaxation(m) * 2 / 3.0);
   double most = 0;
   for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++) {
     const double error = gg_run_criteria_error_of(scene, m, q);
-    if (isfinite(error)) most = fmax(most, fmax(usual, for_small(m, q)) / (error * error));
+    if (isfinite(error)) most = fmax(most, gg_theory_effort(m, q) / (error * error));
   }
   return most / ((double)m->n * (double)scene->run.replicas);
 }
@@ -160,20 +74,6 @@ static void plan_time(gg_cost_estimate *f, const gg_scene *scene, const gg_model
   f->seconds = f->collisions * (double)m->n / 2 * (double)scene->run.replicas * f->ns * (1 + added) * 1e-9;
 }
 
-/* Enskog's equation solved without random numbers: quadratures over pairs of species, of which shear has the more; the
- * viscosity of mixtures up to six species. All others are formulas, or small equations. */
-double gg_run_cost_of_theories(const gg_model *m)
-{
-  enum { MOST_SHEARED = 8, MOST_VISCOUS = 6 };
-  const double formulas = 0.02, n = m->n_species;
-  const bool sheared = m->flow == GG_USF || m->flow == GG_HEATED_SHEAR;
-  if (!(gg_theory_enskog_hermite.flows & GG_FLOW_BIT(m->flow)) || m->law.name) return formulas;
-  if (m->rule == GG_ROUGH && n == 1) return 0.9;
-  if (m->rule != GG_SMOOTH || (sheared && n > MOST_SHEARED)) return formulas;
-  if (sheared) return 1.5 * pow(n, 1.5);
-  return n > MOST_VISCOUS ? 1 : 0.5 + 0.4 * n * n;
-}
-
 /* Means, series and the document, and frames: three numbers each for positions, velocities and spins. */
 static void plan_file(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m)
 {
@@ -191,7 +91,7 @@ static void plan_file(gg_cost_estimate *f, const gg_scene *scene, const gg_model
 gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
   gg_cost_estimate f = {.engine = gg_common_engine_of(engine)->bytes(m),
-                        .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
+                        .ns = gg_common_engine_of(engine)->nanoseconds(m)};
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
   f.series = fmin(f.collisions / GG_SAMPLING_INTERVAL, GG_SERIES_ROWS) * 8 * (m->rule == GG_SMOOTH ? 120 : 200);
@@ -212,7 +112,7 @@ double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md)
   gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
   if (m && gg_scene_model_make(scene, GG_DSMC, m, NULL) == GG_OK &&
       gg_common_engine_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measured(scene, m) == scene->measure)
-    ratio = pace_of_md(md) / pace_of_dsmc(m);
+    ratio = gg_common_engine_of(GG_MD)->nanoseconds(md) / gg_common_engine_of(GG_DSMC)->nanoseconds(m);
   free(m);
   return ratio;
 }

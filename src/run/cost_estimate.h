@@ -32,10 +32,6 @@ gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *mod
  * measures every requested observable; else 0. */
 double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md);
 
-/* Seconds of processor time for all theories of a model, right within a factor of three; longest where
- * the program was built without the machine's own instructions. */
-double gg_run_cost_of_theories(const gg_model *model);
-
 /* GG_FAILED, with what is needed and what is there, if this machine has not the memory. */
 gg_status gg_run_cost_check_memory(const gg_cost_estimate *cost, const char *engine, int64_t replicas, gg_error *err);
 

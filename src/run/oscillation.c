@@ -17,7 +17,9 @@ typedef struct sampled {
 
 static double value_of(const gg_replica *r, const gg_function *f, int observable, size_t row)
 {
-  return observable < 0 ? 0 : gg_function_value(*f, gg_series_row(&r->series, row) + r->offset[observable], &r->model);
+  return observable < 0
+             ? 0
+             : gg_function_value(*f, gg_series_row(&r->series, row) + r->sampler.offset[observable], &r->model);
 }
 
 static void read_replica(const gg_oscillation *o, size_t first, const gg_replica *r, const sampled *s, gg_cycle *c)
@@ -58,10 +60,10 @@ gg_status gg_run_oscillation_curves(const gg_replicas *all, const gg_relaxing *t
   const size_t steps = (size_t)scene->shear.steps, periods = (size_t)gg_scene_shear_periods(scene),
                analysed = (periods + 1) / 2, n = (size_t)all->n, first = steps * (periods - analysed);
   sampled s;
-  s.of_kinetic = gg_run_replica_find_function(r, GG_Q_P_XY_KINETIC, &s.kinetic);
-  s.of_collisional = gg_run_replica_find_function(r, GG_Q_P_XY_COLLISIONAL, &s.collisional);
+  s.of_kinetic = gg_measure_sampler_find(&r->sampler, GG_Q_P_XY_KINETIC, &s.kinetic);
+  s.of_collisional = gg_measure_sampler_find(&r->sampler, GG_Q_P_XY_COLLISIONAL, &s.collisional);
   if (r->series.n <= steps * periods || s.of_kinetic < 0 || *scene->protocol[0].key ||
-      !gg_run_replica_find_history(r, GG_Q_TEMPERATURE, &s.T))
+      !gg_measure_sampler_find_history(&r->sampler, GG_Q_TEMPERATURE, &s.T))
     return GG_OK; /* cut short, or not of one gas */
   double *room = gg_base_array_new(steps * (3 * n + 4), sizeof *room, err);
   gg_cycle *of = gg_base_array_new(n + 1, sizeof *of, err);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "run/engine_grains.h"
+#include "common/engine_grains.h"
 #include "run/run.h"
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
@@ -71,7 +71,7 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
   then.fixed.contact_time = scene->fixed.contact_time;
   GG_TRY(gg_run_start_make(&then, NULL, model->stop, changed, err));
   GG_TRY(gg_common_engine_of(scene->engine)->accepts(changed, err));
-  return gg_run_is_same_gas(model, changed)
+  return gg_common_is_same_gas(model, changed)
              ? GG_OK
              : gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at %g: this value of %s needs other grains or units",
                             scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);

@@ -7,9 +7,9 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "common/engine_grains.h"
 #include "common/linear_response.h"
 #include "common/rng.h"
-#include "run/engine_grains.h"
 #include "run/protocol_times.h"
 #include "scene/fields.h"
 
@@ -17,6 +17,17 @@
 static bool leaves_out_warmup(const gg_scene *scene)
 {
   return scene->output.after == GG_AFTER_WARMUP && scene->run.warmup != 0;
+}
+
+static void sample_row(gg_replica *r, double elapsed)
+{
+  gg_measure_sampler_row(&r->sampler, r->engine, elapsed, r->clock.velocity_factor, r->clock.averaging);
+  r->clock.velocity_factor = 1;
+}
+
+static gg_status observe_collisions(gg_replica *r, gg_error *err)
+{
+  return gg_measure_sampler_observe(&r->sampler, r->engine, r->clock.window_samples, r->clock.part, err);
 }
 
 gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
@@ -39,17 +50,17 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
   }
   r->engine->ops->keep_sums(r->engine, true);
   r->clock.interval = GG_SAMPLING_INTERVAL / gg_common_model_collision_rate(model, model->temperature0);
-  gg_run_replica_sample_row(r, 0);
-  if (gg_scene_is_followed(scene)) gg_statistics_series_add(&r->series, 0, r->row); /* curves begin at the start */
+  sample_row(r, 0);
+  if (gg_scene_is_followed(scene))
+    gg_statistics_series_add(&r->series, 0, r->sampler.row); /* curves begin at the start */
   return GG_OK;
 }
 
 void gg_run_replica_clear(gg_replica *r)
 {
-  gg_run_replica_clear_observables(r);
+  gg_measure_sampler_clear(&r->sampler);
   if (r->engine) r->engine->ops->destroy(r->engine);
   gg_statistics_series_clear(&r->series);
-  free(r->row);
   memset(r, 0, sizeof *r);
 }
 
@@ -92,14 +103,16 @@ static gg_status advance_part(gg_replica *r, int part, int parts, bool adapt, gg
 static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, uint64_t *happened, gg_error *err)
 {
   struct gg_replica_clock *c = &r->clock;
-  int parts = c->averaging ? r->parts : 1;
+  int parts = c->averaging ? r->sampler.parts : 1;
   if (!c->part) c->gone = 0, c->happened = collisions(r);
-  if (c->averaging) GG_TRY(gg_run_replica_observe_collisions(r, err));
+  if (c->averaging) GG_TRY(observe_collisions(r, err));
   for (int part = c->part ? (int)c->part : 1; part <= parts; part++) {
     GG_TRY(advance_part(r, part, parts, adapt, err));
     c->gone += c->part_gone;
-    if (c->averaging) gg_run_replica_sample_curves(r, part, c->part_gone);
+    if (c->averaging)
+      gg_measure_sampler_curves(&r->sampler, r->engine, part, c->part_gone, c->velocity_factor, c->window_samples);
   }
+  if (c->averaging) c->window_samples++;
   *elapsed = c->gone;
   *happened = collisions(r) - c->happened;
   c->part = 0;
@@ -122,8 +135,9 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
 {
   GG_TRY(r->engine->ops->rescale(r->engine, power, err));
   r->clock.velocity_factor = ldexp(1, power);
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->rescaled) r->observable[k]->rescaled(r->self[k], r->clock.velocity_factor);
+  for (int k = 0; k < r->sampler.n_observables; k++)
+    if (r->sampler.observable[k]->rescaled)
+      r->sampler.observable[k]->rescaled(r->sampler.self[k], r->clock.velocity_factor);
   r->clock.interval = ldexp(r->clock.interval, -power);
   r->clock.temperature = ldexp(r->clock.temperature, 2 * power);
   return GG_OK;
@@ -169,10 +183,10 @@ static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg
   if (r->frames_of_window && !r->clock.window_collisions) return GG_OK; /* no window was opened yet */
   if (!callbacks || !callbacks->frame) return GG_OK;
   gg_frame frame;
-  GG_TRY(gg_run_frame_take(r->engine, &r->model, &frame, err));
+  GG_TRY(gg_measure_frame_take(r->engine, &r->model, &frame, err));
   gg_run_replica_date_frame(r, &frame);
   gg_status status = callbacks->frame(callbacks->context, &frame, err);
-  gg_run_frame_free(&frame);
+  gg_measure_frame_free(&frame);
   return status;
 }
 
@@ -180,8 +194,8 @@ static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg
  * whose sweeps go through any scale, T itself. The starting temperature where T is not measured. */
 static double temperature_now(const gg_replica *r)
 {
-  const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-  const double *row = o ? r->row + r->offset[0] : NULL;
+  const gg_observable *o = r->sampler.n_observables ? r->sampler.observable[0] : NULL;
+  const double *row = o ? r->sampler.row + r->sampler.offset[0] : NULL;
   gg_function f;
   if (r->model.linear_response && o && gg_measure_derived_find(o->rows->derived, GG_Q_TEMPERATURE, &f))
     return gg_function_value(f, row, &r->model);
@@ -233,11 +247,12 @@ static void set_interval_to_next_time(gg_replica *r)
 static gg_status change(gg_replica *r, const gg_model *model, gg_error *err)
 {
   gg_engine *next;
-  GG_TRY(gg_run_engine_continue(r->engine, model, &next, err));
+  GG_TRY(gg_common_engine_continue(r->engine, model, &next, err));
   r->engine->ops->destroy(r->engine);
   r->engine = next;
   r->model = *model; /* which the observables borrow */
-  gg_run_replica_change_curves(r);
+  if (r->clock.averaging) r->clock.window_samples = 0;
+  gg_measure_sampler_change(&r->sampler, r->clock.averaging);
   return GG_OK;
 }
 
@@ -274,14 +289,14 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   GG_TRY(change_if_due(r, err)); /* a change that was interrupted */
   if (gg_scene_is_followed(&r->scene) && !r->clock.part) set_interval_to_next_time(r);
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
-  gg_run_replica_sample_row(r, elapsed);
+  sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
   if (!isfinite(r->clock.temperature)) /* NaN never recovers: fail now */
     return gg_base_fail(err, GG_FAILED, "%s: the temperature became NaN or infinite near time %g", r->engine->ops->name,
                         r->clock.time);
   GG_TRY(check_collapse(r, adapt, elapsed, happened, err));
-  gg_statistics_series_add(&r->series, r->clock.time, r->row);
+  gg_statistics_series_add(&r->series, r->clock.time, r->sampler.row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened, before);
   GG_TRY(shear_if_due(r, err));
@@ -325,8 +340,10 @@ gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err)
   gg_statistics_series_open_window(&r->series);
   r->clock.window_collisions = collisions(r);
   r->clock.window_cpu = r->clock.cpu;
-  gg_run_replica_restart_curves(r);
-  return gg_run_replica_observe_collisions(r, err);
+  r->clock.averaging = 1;
+  r->clock.window_samples = 0;
+  gg_measure_sampler_restart(&r->sampler);
+  return observe_collisions(r, err);
 }
 
 gg_status gg_run_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
@@ -334,7 +351,7 @@ gg_status gg_run_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
   GG_TRY(r->engine->ops->save(r->engine, a, err));
   GG_TRY(gg_statistics_series_save(&r->series, a, err));
   GG_TRY(gg_base_archive_put(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err));
-  return gg_run_replica_save_observables(r, a, err);
+  return gg_measure_sampler_save(&r->sampler, a, err);
 }
 
 /* Validate the restored clock. */
@@ -343,7 +360,7 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
   const struct gg_replica_clock *c = &r->clock;
   const double plain[] = {c->temperature, c->velocity_factor, c->gone, c->part_gone, c->cpu, c->window_cpu};
   bool good = c->time >= 0 /* or infinite */ && c->interval > 0 && c->interval < 1e300 && c->part >= 0 &&
-              c->part <= r->parts && c->power > -1000000000 && c->power < 1000000000 && !isnan(c->next_frame) &&
+              c->part <= r->sampler.parts && c->power > -1000000000 && c->power < 1000000000 && !isnan(c->next_frame) &&
               !isnan(c->frame_every);
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
   return good ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
@@ -385,7 +402,7 @@ gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_sc
   if (status == GG_OK) status = check_clock(r, err);
   if (status == GG_OK) status = gg_common_engine_of(scene->engine)->restore(&r->model, a, &r->engine, err);
   if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
-  if (status == GG_OK) status = gg_run_replica_restore_observables(r, a, err);
+  if (status == GG_OK) status = gg_measure_sampler_restore(&r->sampler, a, err);
   if (status == GG_OK && r->clock.frame_every != r->trajectory_every) {
     /* a resumed run may request frames at other intervals */
     r->clock.frame_every = r->trajectory_every;

@@ -3,35 +3,16 @@
 #ifndef GG_REPLICA_H
 #define GG_REPLICA_H
 
-#include "measure/cell_frame.h"
-#include "measure/local_frame.h"
-#include "measure/observable.h"
+#include "measure/sampler.h"
 #include "run/run.h"
 #include "scene/scene.h"
-
-enum { GG_MAX_OBSERVABLES = GG_N_OBSERVABLES + 1 }; /* built-in ones, and one for all user-defined ones */
 
 typedef struct gg_replica {
   gg_model model; /* after the protocol's changes so far */
   gg_scene scene;
   gg_engine *engine;
-  int n_observables;
-  const gg_observable *observable[GG_MAX_OBSERVABLES];
-  void *self[GG_MAX_OBSERVABLES];
-  size_t offset[GG_MAX_OBSERVABLES]; /* first channel of the observable in a row */
-  size_t wall_modes_at;              /* first channel of the wall modes (wall_modes.h) */
-  gg_bins bins[GG_MAX_OBSERVABLES];  /* of observables with curves */
-  int every[GG_MAX_OBSERVABLES];     /* samples between their snapshots */
-  enum gg_observed { GG_OBSERVED_UNSET, GG_NOT_OBSERVED, GG_OBSERVED } shown; /* state of the collision callback */
-  gg_snapshot snapshot;    /* taken only if an observable with curves is due */
-  int parts;               /* number of parts of a sampling interval while averaging; a snapshot ends each part */
-  struct gg_replica_flow { /* between walls; else NULL */
-    gg_slabs window;       /* of all rows since averaging began */
-    gg_local_frame frame;  /* of them; before, of the last row */
-  } * flow;
-  gg_framed *framed; /* about cells; else NULL */
+  gg_sampler sampler;
   gg_series series;
-  double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */
   bool logged;              /* the caller gets every sample */
   bool frames_of_window;    /* none of the warm-up */
@@ -78,32 +59,13 @@ gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err);
 /* Averaging begins at the next sample. */
 gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err);
 
-/* observable_setup.c: the observables that the scene asks for, with their bins; and their part of a checkpoint. */
+/* observable_setup.c: the observables that the scene asks for, and the series of their rows. */
 gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene, gg_error *err);
-void gg_run_replica_clear_observables(gg_replica *r);
 /* Flags of the requested observables that the gas of the scene can have, `model` at its start; and a line for each
  * other one. */
 gg_status gg_run_measured(const gg_scene *scene, const gg_model *model, unsigned *flags, gg_error *err);
 gg_status gg_run_unmeasured(const gg_scene *scene, const gg_model *model, void (*line)(void *context, const char *text),
                             void *context, gg_error *err);
-gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
-gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *archive, gg_error *err);
-
-/* sampling.c: a row of the series; after each part of an interval, `part` from 1 to r->parts, what curves need. */
-void gg_run_replica_sample_row(gg_replica *r, double elapsed);
-void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
-void gg_run_replica_restart_curves(gg_replica *r);
-/* The model has changed, and the engine is another: curves are of the new gas alone. */
-void gg_run_replica_change_curves(gg_replica *r);
-
-/* sampling.c, before each interval of the window: engines report collisions to the observables that need them, always
- * or in bursts (see there). Numbers of samples: length of a burst; first: period of the first bursts; apart: period
- * from sample `regular_from` of the window on. */
-typedef struct gg_sampling_bursts {
-  uint64_t length, first, apart, regular_from;
-} gg_sampling_bursts;
-gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *model);
-gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
 
 double gg_run_replica_collisions_per_grain(const gg_replica *r);
 /* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */

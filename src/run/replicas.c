@@ -323,9 +323,9 @@ static void level_bins(gg_replicas *all, int k)
 {
   size_t per_block = 0;
   for (int i = 0; i < all->n; i++)
-    if (all->replica[i].bins[k].per_block > per_block) per_block = all->replica[i].bins[k].per_block;
+    if (all->replica[i].sampler.bins[k].per_block > per_block) per_block = all->replica[i].sampler.bins[k].per_block;
   for (int i = 0; i < all->n; i++)
-    if (all->replica[i].bins[k].sum) gg_statistics_bins_coarsen(&all->replica[i].bins[k], per_block);
+    if (all->replica[i].sampler.bins[k].sum) gg_statistics_bins_coarsen(&all->replica[i].sampler.bins[k], per_block);
 }
 
 void gg_run_replicas_level(gg_replicas *all)
@@ -341,5 +341,5 @@ void gg_run_replicas_level(gg_replicas *all)
     if (all->replica[i].series.n < rows) rows = all->replica[i].series.n;
   }
   for (int i = 0; i < all->n; i++) all->replica[i].series.n = rows;
-  for (int k = 0; k < all->replica[0].n_observables; k++) level_bins(all, k);
+  for (int k = 0; k < all->replica[0].sampler.n_observables; k++) level_bins(all, k);
 }

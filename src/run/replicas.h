@@ -4,18 +4,10 @@
 #ifndef GG_REPLICAS_H
 #define GG_REPLICAS_H
 
-#include "measure/wall_modes.h"
+#include "measure/slow_modes.h"
 #include "run/progress_estimate.h"
 #include "run/scheduler.h"
-
-typedef struct gg_stopping_criteria { /* stopping criteria, chosen before the run; in samples of each replica */
-  uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; requested length, 0: until the error */
-  uint64_t least_steady;        /* a shorter window is not called steady */
-  uint64_t longest;             /* window after which the requested error counts as out of reach */
-  double relative_error;        /* 0: none; the smallest where quantities have their own */
-  double time_limit;            /* seconds, 0: none */
-  bool find_steady;             /* give up windows that show a trend */
-} gg_stopping_criteria;
+#include "statistics/stopping_rule.h"
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
@@ -81,34 +73,6 @@ enum { GG_NOT_STOPPED, GG_OUT_OF_TIME, GG_STOP_REQUESTED }; /* why a run is stop
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
 /* The relative error requested of a quantity; INFINITY: none. */
 double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg_quantity q);
-/* True if a window with a trend is given up, after `restarts` earlier ones. */
-bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts);
-/* True if a window of this length ends the run, whatever its errors. */
-bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
-
-/* Result of a test of the window. A window with 64 long blocks knows its error to 9 %: it is sure. Shorter ones, with
- * 16 of them, do not know it to better than a fifth. */
-typedef struct gg_window_test {
-  uint64_t window;
-  double ratio;     /* error over the requested one; NaN: not known */
-  bool exact, sure; /* as small as requested, and to be trusted */
-} gg_window_test;
-/* True if the test ends the run. A run that tests repeatedly and stops at the first small error estimate stops where
- * the estimate is too low. So a window that is not `sure` is extended by half its length after the first passed test,
- * and the estimate at its end counts. A sure window is not extended: its tests are few, since each is at the end
- * predicted by the last, and its estimate scatters little. (Simulated with independent blocks, without the error of the
- * error: the mean square of deviations over claimed errors is 1.07 without extension, 1.05 with it, 1.03 for windows of
- * fixed length; with 16 blocks 1.3, 1.16 and 1.15.) */
-bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before);
-/* Length at which the window is tested next, after that test; NULL: first. It grows by a quarter a time; of one that is
- * sure, to where its error should be a twentieth smaller than requested. */
-uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last);
-
-/* Factor that enlarges errors by which a run stops, since it stops where their estimate is low; 1 for other errors. In
- * independent runs of autoregressive series (tests/run/test_stopping_rule.c) the mean square of deviations over errors
- * is 1.0 to 1.1 then, and 1.1 to 1.2 without; 1 % from 600 correlation times on. `correlation` and `window` in one
- * unit, over all replicas. */
-double gg_run_criteria_margin(const gg_stopping_criteria *criteria, double correlation, double window);
 
 /* create them, or restore them from `resume`, with the scheduler of the callbacks, or else one of
  * `threads`. They are the caller's to clear if this succeeds. */
@@ -144,19 +108,8 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *converge
 /* correlations.c: of the quantities in result->correlations, whose errors are known. */
 gg_status gg_run_replicas_correlations(const gg_replicas *all, gg_result *result, gg_error *err);
 
-/* slow_modes.c: what moves slowly across the gap between walls, over the window. Times in samples. */
-typedef struct gg_slow_modes {
-  int modes; /* measure/wall_modes.h; 0 without walls */
-  double decay[GG_MOST_WALL_MODES];
-  double time; /* the longest over which results remember a mode: half its decay time where they follow its square */
-  double mean_time; /* that of all modes: the slowest of several estimates is mostly one that is too long */
-  /* Walls alike: how far from the middle the centre of mass was on average, and that mean's share in the mean square.
-   */
-  double aside, aside_share;
-} gg_slow_modes;
+/* series_means.c: what moves slowly across the gap between walls, over the window (measure/slow_modes.h). */
 gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow, gg_error *err);
-/* Error of a quantity's mean from the square of an odd mode with that decay time: the scatter of what is proportional
- * to the square, over the window. */
 gg_status gg_run_replicas_error_by_square(const gg_replicas *all, int mode, double decay, gg_quantity q, double *error,
                                           gg_error *err);
 

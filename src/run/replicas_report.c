@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "common/linear_response.h"
+#include "common/finite_size.h"
 #include "run/causes.h"
 #include "run/default_size.h"
 #include "run/replica.h"
@@ -27,7 +27,7 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
   if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned NaN or infinite values";
   if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
-  if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
+  if (all->replica[0].sampler.n_observables == 0) return "nothing is measured in this scene";
   if (all->model.linear_response && (gg_common_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
     return "too short: the averaging has less than a sweep of the reduced shear rate";
   const char *reason = gg_common_quantity_missing(gas_of(all), q);
@@ -83,9 +83,10 @@ static gg_status report_history(const gg_replicas *all, gg_result *result, gg_er
     h->value[k] = gg_base_array_new(h->n, sizeof *h->value[k], err);
     if (!h->value[k]) return GG_FAILED;
     gg_function f;
-    bool there = gg_run_replica_find_history(r, gg_common_quantity_of_history(k), &f);
+    bool there = gg_measure_sampler_find_history(&r->sampler, gg_common_quantity_of_history(k), &f);
     for (size_t i = 0; i < h->n; i++)
-      h->value[k][i] = there ? gg_function_value(f, gg_series_row(&r->series, i) + r->offset[0], &all->model) : NAN;
+      h->value[k][i] =
+          there ? gg_function_value(f, gg_series_row(&r->series, i) + r->sampler.offset[0], &all->model) : NAN;
   }
   return GG_OK;
 }
@@ -100,7 +101,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
       result->window_step = r->clock.window_collisions;
       sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;
-      sum->particles_bias = all->model.ensemble ? gg_scene_ensemble_bias(&all->model) : 0;
+      sum->particles_bias = all->model.ensemble ? gg_common_finite_size_bias_of(&all->model) : 0;
       sum->time_step = ldexp(s.time_step, (int)r->clock.power);
     }
     sum->collisions += s.collisions, sum->events += s.events;
@@ -140,9 +141,10 @@ static void warn_if_very_few(const gg_replicas *all, gg_result *result)
 {
   const gg_model *m = &all->model;
   if (m->n >= FEW_GRAINS || (m->ensemble && all->criteria.relative_error > 0)) return; /* warn_if_few has it */
-  gg_run_result_warn(
-      result, "%lld grains are few: means may lie up to %.2g %% off those of many (1/N); give %s %d or more",
-      (long long)m->n, 100 * gg_scene_ensemble_bias(m), m->ensemble ? "dsmc.particles" : "particles", FEW_GRAINS);
+  gg_run_result_warn(result,
+                     "%lld grains are few: means may lie up to %.2g %% off those of many (1/N); give %s %d or more",
+                     (long long)m->n, 100 * gg_common_finite_size_bias_of(m),
+                     m->ensemble ? "dsmc.particles" : "particles", FEW_GRAINS);
 }
 
 /* Freezing and melting fractions of hard spheres: Hoover & Ree, J. Chem. Phys. 49 (1968) 3609. md starts from random
@@ -332,13 +334,14 @@ static void warn_of_one_side(const gg_slow_modes *w, gg_result *result)
 static gg_status report_one(const gg_replicas *all, int k, double memory, gg_result *result, gg_error *err)
 {
   const gg_replica *first = &all->replica[0];
-  const gg_observable *o = first->observable[k];
+  const gg_observable *o = first->sampler.observable[k];
   const gg_bins **bins = gg_base_array_new((size_t)all->n, sizeof *bins, err);
   if (!bins) return GG_FAILED;
-  for (int r = 0; r < all->n; r++) bins[r] = &all->replica[r].bins[k];
+  for (int r = 0; r < all->n; r++) bins[r] = &all->replica[r].sampler.bins[k];
   int before = result->curves.n;
-  gg_status status = gg_measure_curves_estimate(bins, (size_t)all->n, o->curves->of_bins, first->self[k], o->name,
-                                                memory / fmax(first->every[k], 1), &result->curves, err);
+  gg_status status =
+      gg_measure_curves_estimate(bins, (size_t)all->n, o->curves->of_bins, first->sampler.self[k], o->name,
+                                 memory / fmax(first->sampler.every[k], 1), &result->curves, err);
   if (status == GG_OK && (size_t)all->n * bins[0]->blocks < GG_MIN_BLOCKS)
     gg_run_result_warn(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
                        (size_t)all->n * bins[0]->blocks, GG_MIN_BLOCKS);
@@ -356,8 +359,8 @@ static gg_status report_curves(const gg_replicas *all, const gg_slow_modes *slow
 {
   result->curves = (gg_curves){.model = &result->model};
   GG_TRY(gg_run_unmeasured(&all->scene, &all->model, warn_of_unmeasured, result, err));
-  for (int k = 0; k < all->replica[0].n_observables; k++)
-    if (all->replica[0].observable[k]->curves) GG_TRY(report_one(all, k, slow->mean_time, result, err));
+  for (int k = 0; k < all->replica[0].sampler.n_observables; k++)
+    if (all->replica[0].sampler.observable[k]->curves) GG_TRY(report_one(all, k, slow->mean_time, result, err));
   warn_of_one_side(slow, result);
   return gg_scene_is_followed(&all->scene) ? gg_run_time_course_curves(all, result, err) : GG_OK;
 }
@@ -384,7 +387,7 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
     gg_run_default_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   report_warnings(all, &c, result);
   GG_TRY(report_curves(all, &slow, result, err));
-  GG_TRY(gg_run_frame_take(all->replica[0].engine, &all->model, &result->final, err));
+  GG_TRY(gg_measure_frame_take(all->replica[0].engine, &all->model, &result->final, err));
   gg_run_replica_date_frame(&all->replica[0], &result->final);
   return GG_OK;
 }

@@ -75,7 +75,7 @@ void gg_run_result_free(gg_result *result)
   free(result->history.time);
   for (int k = 0; k < GG_N_HISTORY; k++) free(result->history.value[k]);
   gg_measure_curves_clear(&result->curves);
-  gg_run_frame_free(&result->final);
+  gg_measure_frame_free(&result->final);
   gg_base_string_list_clear(&result->warnings);
   gg_scene_release(result->scene);
   gg_common_extension_release(result->own);
@@ -85,79 +85,10 @@ void gg_run_result_free(gg_result *result)
   free(result);
 }
 
-typedef struct filling {
-  gg_frame *frame;
-  size_t at;
-  double spin_unit[GG_MAX_SPECIES]; /* omega over (d/2) omega */
-} filling;
-
-static void fill(void *context, const gg_chunk *chunk)
-{
-  filling *f = context;
-  gg_frame *frame = f->frame;
-  for (size_t i = 0; i < chunk->n; i++, f->at++) {
-    int species = chunk->species ? chunk->species[i] : 0;
-    for (int a = 0; a < 3; a++) {
-      if (chunk->r[0]) frame->position[3 * f->at + (size_t)a] = chunk->r[a][i];
-      frame->velocity[3 * f->at + (size_t)a] = chunk->c[a][i];
-      if (chunk->s[0]) frame->spin[3 * f->at + (size_t)a] = chunk->s[a][i] * f->spin_unit[species];
-    }
-    if (frame->species) frame->species[f->at] = (uint8_t)species;
-    frame->id[f->at] = chunk->id ? chunk->id[i] : (int64_t)f->at;
-  }
-}
-
-gg_status gg_run_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err)
-{
-  size_t n = (size_t)model->n;
-  const gg_engine_state state = gg_engine_state_of(engine);
-  *frame = (gg_frame){.time = state.time, .step = state.collisions, .n = n};
-  bool positions = !model->homogeneous, spins = model->rule != GG_SMOOTH, species = model->n_species > 1;
-  if (positions) frame->position = gg_base_array_new(3 * n, sizeof(double), err);
-  if (spins) frame->spin = gg_base_array_new(3 * n, sizeof(double), err);
-  if (species) frame->species = gg_base_array_new(n, 1, err);
-  frame->velocity = gg_base_array_new(3 * n, sizeof(double), err);
-  frame->id = gg_base_array_new(n, sizeof(int64_t), err);
-  if (!frame->velocity || !frame->id || (positions && !frame->position) || (spins && !frame->spin) ||
-      (species && !frame->species)) {
-    gg_run_frame_free(frame);
-    return GG_FAILED;
-  }
-  filling f = {.frame = frame};
-  for (int i = 0; i < GG_MAX_SPECIES; i++) f.spin_unit[i] = model->boltzmann ? 1 : 2 / model->diameter[i];
-  engine->ops->snapshot(engine, positions, fill, &f);
-  return GG_OK;
-}
-
-void gg_run_frame_free(gg_frame *frame)
-{
-  free(frame->position);
-  free(frame->velocity);
-  free(frame->spin);
-  free(frame->species);
-  free(frame->id);
-  *frame = (gg_frame){0};
-}
-
 gg_status gg_run_frame_check(const gg_frame *frame, const gg_model *m, gg_error *err)
 {
   bool fits = frame->n == (size_t)m->n && frame->velocity && !frame->position == m->homogeneous &&
               !frame->spin == (m->rule == GG_SMOOTH) && !frame->species == (m->n_species == 1);
   for (size_t i = 0; fits && frame->species && i < frame->n; i++) fits = frame->species[i] < m->n_species;
   return fits ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "a frame of the trajectory is not one of this scene");
-}
-
-size_t *gg_run_frame_order(const gg_frame *frame, gg_error *err)
-{
-  size_t *order = gg_base_array_new(frame->n, sizeof *order, err);
-  for (size_t i = 0; order && i < frame->n; i++) {
-    int64_t id = frame->id ? frame->id[i] : (int64_t)i;
-    if (id < 0 || (size_t)id >= frame->n) {
-      gg_base_fail(err, GG_FAILED, "the grains of a frame are not numbered from 0 to n-1");
-      free(order);
-      return NULL;
-    }
-    order[id] = i;
-  }
-  return order;
 }

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "common/engine.h"
 #include "common/quantity.h"
+#include "measure/frame.h"
 #include "measure/observable.h"
 
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
@@ -66,21 +67,8 @@ typedef struct gg_history {
   double window[2];            /* averaging from .. to */
 } gg_history;
 
-/* Grains at one instant; arrays of 3 n (x y z x y z ...), NULL where there are none. */
-typedef struct gg_frame {
-  double time;
-  uint64_t step; /* collisions since creation */
-  size_t n;
-  double *position, *velocity, *spin; /* velocity: peculiar; spin: omega (Boltzmann limit: (d/2) omega) */
-  uint8_t *species;                   /* NULL for one species */
-  int64_t *id;
-} gg_frame;
-gg_status gg_run_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err);
-void gg_run_frame_free(gg_frame *frame);
 /* GG_BAD_FILE: it is of no run of this model, as one from a file that was made to be read astray. */
 gg_status gg_run_frame_check(const gg_frame *frame, const gg_model *model, gg_error *err);
-/* Places of the grains in the order of their numbers, so that a row is the same grain in every frame; to be freed. */
-size_t *gg_run_frame_order(const gg_frame *frame, gg_error *err);
 
 typedef struct gg_effort {
   uint64_t collisions;

@@ -14,6 +14,7 @@
 #include "run/scheduler.h"
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
+#include "theory/near_steady.h"
 
 /* Make a result of the present state of the replicas; it may fall short of the requested errors. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
@@ -95,7 +96,7 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
     gg_error why = {0};
     if (wanted && !wanted[i]) continue;
     if (theory->own && !started) {
-      GG_TRY(gg_run_start_near_steady(start, err));
+      GG_TRY(gg_theory_start_near_steady(start, err));
       started = true;
     }
     const int n = c->n_theories;

@@ -6,24 +6,6 @@
 
 #include "base/memory.h"
 
-int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f)
-{
-  if (gg_common_quantity_missing(&r->model, q)) return -1;
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->rows && gg_measure_derived_find(r->observable[k]->rows->derived, q, f)) return k;
-  return -1;
-}
-
-bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f)
-{
-  const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-  if (!o || !o->rows->history) return false;
-  const bool decays = gg_measure_derived_find(o->rows->history, q, f);
-  const unsigned lasting = GG_NEEDS_SCALE_SHOWN | (decays ? GG_NEEDS_SCALE : 0);
-  if (gg_common_model_missing(&r->model, gg_common_quantity_mask(q) & ~lasting)) return false;
-  return decays || gg_measure_derived_find(o->rows->derived, q, f);
-}
-
 static const gg_series **series_of(const gg_replicas *all, gg_error *err)
 {
   const gg_series **series = gg_base_array_new((size_t)all->n, sizeof *series, err);
@@ -35,31 +17,59 @@ gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, double mem
 {
   *mean = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
   gg_function f;
-  const int k = gg_run_replica_find_function(&all->replica[0], q, &f);
+  const int k = gg_measure_sampler_find(&all->replica[0].sampler, q, &f);
   if (k < 0) return GG_OK;
   const gg_series **series = series_of(all, err);
   if (!series) return GG_FAILED;
   const gg_replica *first = &all->replica[0];
-  gg_status status = gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n,
-                                                 first->offset[k], first->observable[k]->rows->width(&all->model), f,
-                                                 &all->model, memory / (double)first->series.per_row, mean, err);
+  gg_status status =
+      gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n,
+                                  first->sampler.offset[k], first->sampler.observable[k]->rows->width(&all->model), f,
+                                  &all->model, memory / (double)first->series.per_row, mean, err);
   free(series);
   double rows = (double)gg_series_window_rows(&first->series) * all->n;
-  mean->error *= gg_run_criteria_margin(&all->criteria, mean->correlation_rows, rows);
+  mean->error *= gg_statistics_rule_margin(&all->criteria, mean->correlation_rows, rows);
   return status;
 }
 
 gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t length, double *blocks, gg_error *err)
 {
   gg_function f;
-  const int k = gg_run_replica_find_function(&all->replica[0], q, &f);
+  const int k = gg_measure_sampler_find(&all->replica[0].sampler, q, &f);
   if (k < 0) return GG_OK;
   const gg_series **series = series_of(all, err);
   if (!series) return GG_FAILED;
   const gg_replica *first = &all->replica[0];
-  gg_status status = gg_statistics_response_blocks(series, (size_t)all->n, first->series.window, first->series.n,
-                                                   first->offset[k], first->observable[k]->rows->width(&all->model), f,
-                                                   &all->model, length, blocks, err);
+  gg_status status = gg_statistics_response_blocks(
+      series, (size_t)all->n, first->series.window, first->series.n, first->sampler.offset[k],
+      first->sampler.observable[k]->rows->width(&all->model), f, &all->model, length, blocks, err);
   free(series);
+  return status;
+}
+
+gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *w, gg_error *err)
+{
+  *w = (gg_slow_modes){0};
+  if (!all->state.averaging || gg_measure_wall_modes(&all->model) == 0) return GG_OK;
+  const gg_series **series = series_of(all, err);
+  if (!series) return GG_FAILED;
+  const size_t at = all->replica[0].sampler.wall_modes_at;
+  const gg_status status = gg_measure_slow_modes(&all->model, series, (size_t)all->n, at, w, err);
+  free(series);
+  return status;
+}
+
+gg_status gg_run_replicas_error_by_square(const gg_replicas *all, int mode, double decay, gg_quantity q, double *error,
+                                          gg_error *err)
+{
+  const gg_series *first = &all->replica[0].series;
+  const size_t n = (size_t)all->n, rows = gg_measure_slow_rows(first),
+               channel = all->replica[0].sampler.wall_modes_at + (size_t)mode;
+  const gg_series **series = series_of(all, err);
+  double *response = gg_base_array_new(gg_series_window_rows(first) / rows * n, sizeof *response, err);
+  gg_status status = series && response ? gg_run_replicas_blocks(all, q, rows, response, err) : GG_FAILED;
+  if (status == GG_OK) status = gg_measure_error_by_square(series, n, channel, decay, response, error, err);
+  free(series);
+  free(response);
   return status;
 }

@@ -5,12 +5,6 @@
 
 #include "run/replicas.h"
 
-/* The observable that has a quantity, and by what function; -1 if none. */
-int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f);
-/* How a row of the first observable (rheology, if it was requested) gives a followed quantity, also one that decays and
- * has no mean. */
-bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f);
-
 /* Mean over the window of all replicas; NaN if no observable here has the quantity. Its error allows for a memory of so
  * many samples, as slow modes between walls have it (gg_slow_modes.time); 0: what the series itself shows. */
 gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, double memory, gg_mean *mean, gg_error *err);

@@ -12,7 +12,7 @@
  * per cent of the steady state leaves less than 0.1 % of it after the first. */
 enum { WARMUP_TIMES = 6, WINDOW_TIMES = 50 };
 /* Between walls: relaxation times of the gap. A start that is symmetric has no part of the slowest wave, and relaxes
- * faster; how long averaging takes is seen from the waves themselves (slow_modes.c). */
+ * faster; how long averaging takes is seen from the waves themselves (measure/slow_modes.c). */
 enum { WARMUP_GAP_TIMES = 3, WINDOW_GAP_TIMES = 10 };
 /* Linear response: at least so many sweeps of the reduced shear rate. */
 enum { LEAST_SWEEPS = 4 };
@@ -25,18 +25,9 @@ static uint64_t samples_for(double collisions)
   return (uint64_t)ceil(collisions / GG_SAMPLING_INTERVAL);
 }
 
-/* Collisions per grain of one sweep of the reduced shear rate: cooling by 2^(2 power), or viscous heating by as much,
- * in which 1/a*^2 grows by (2/3) eta* a time 1/nu_0, five quarters of a collision; eta* taken as 1. */
-static double sweep_length(const gg_model *m)
-{
-  gg_linear_response s = gg_common_linear_response_of(m);
-  if (s.cools) return 2 * M_LN2 * s.power * gg_common_model_cooling(m);
-  return 1.25 * m->chi[0] * 1.5 * (1 / (s.low * s.low) - 1 / (s.high * s.high));
-}
-
 static void plan_linear_response(gg_stopping_criteria *p, const gg_scene *scene, const gg_model *m)
 {
-  double length = sweep_length(m);
+  double length = gg_common_linear_response_length(m);
   if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_common_linear_response_of(m).cools ? 10 : 40);
   p->least = samples_for(LEAST_SWEEPS * length);
   p->least_steady = p->least;
@@ -95,39 +86,4 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
     if (!p.most) p.most = p.least;
   }
   return p;
-}
-
-/* Windows that may be given up: averaging does not begin anew for ever. */
-enum { MOST_RESTARTS = 6 };
-
-bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts)
-{
-  return criteria->find_steady && restarts < MOST_RESTARTS;
-}
-
-bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window)
-{
-  return (criteria->most && window >= criteria->most) ||
-         (criteria->relative_error > 0 && window >= criteria->longest << restarts);
-}
-
-bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before)
-{
-  return test->exact && (test->sure || exact_before);
-}
-
-uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last)
-{
-  uint64_t next = criteria->least << restarts;
-  if (last && last->window >= next)
-    next = last->exact ? last->window + last->window / 2
-           : last->sure && last->ratio > 0
-               ? (uint64_t)ceil(fmin(fmax(1.1 * last->ratio * last->ratio, 1.1), 2) * (double)last->window)
-               : last->window + last->window / 4;
-  return criteria->most && next > criteria->most ? criteria->most : next;
-}
-
-double gg_run_criteria_margin(const gg_stopping_criteria *criteria, double correlation, double window)
-{
-  return criteria->relative_error > 0 && window > 0 ? 1 + 6 * correlation / window : 1;
 }

@@ -33,7 +33,7 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
   const gg_convergence *c = &all->last;
   const gg_stopping_criteria *criteria = &all->criteria;
   const uint64_t window = window_of(all);
-  if (all->replica[0].n_observables == 0)
+  if (all->replica[0].sampler.n_observables == 0)
     return gg_base_fail(err, GG_FAILED,
                         "%s: nothing is measured: it is unknown whether the requested relative error %g is reached",
                         engine, criteria->relative_error);

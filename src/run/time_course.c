@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "run/engine_grains.h"
+#include "common/engine_grains.h"
 #include "run/oscillation.h"
 #include "run/protocol_times.h"
 #include "run/series_means.h"
@@ -46,14 +46,14 @@ static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k
 {
   const size_t n = (size_t)all->n;
   const gg_replica *first = all->replica;
-  const bool one = is_of_one_row(first->observable[k], f);
-  const size_t channels = one ? 1 : first->observable[k]->rows->width(&first->model);
+  const bool one = is_of_one_row(first->sampler.observable[k], f);
+  const size_t channels = one ? 1 : first->sampler.observable[k]->rows->width(&first->model);
   gg_mean m = {.mean = NAN, .error = NAN, .correlation_rows = NAN};
   double *value = gg_base_array_new(n + 2 * channels, sizeof *value, NULL);
   const double **of = gg_base_array_new(n, sizeof *of, NULL);
   for (size_t i = 0; value && of && i < n; i++) {
     const gg_replica *r = &all->replica[i];
-    of[i] = gg_series_row(&r->series, row) + r->offset[k];
+    of[i] = gg_series_row(&r->series, row) + r->sampler.offset[k];
     if (one) value[i] = gg_function_value(*f, of[i], &r->model), of[i] = &value[i];
   }
   if (value && of)
@@ -70,7 +70,7 @@ gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q)
 {
   gg_function f;
   const gg_replica *r = &all->replica[0];
-  const int k = gg_run_replica_find_function(r, q, &f);
+  const int k = gg_measure_sampler_find(&r->sampler, q, &f);
   if (k < 0 || r->series.n < 2) return (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = NAN};
   return over_replicas(all, &f, k, r->series.n - 1, q);
 }
@@ -186,11 +186,12 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
     gg_function f;
     const gg_quantity_row *row = &result->rows.row[i];
     if (row->quantity == GG_Q_SHEAR_VISCOSITY && !gg_run_protocol_is_forward(&all->scene)) continue;
-    if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
+    if (is_shown(&all->model, row->quantity) &&
+        gg_measure_sampler_find_history(&all->replica[0].sampler, row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, 0, list);
     /* Changes after the last step of the protocol may be small beside those before it: add a separate curve. */
     if (row->quantity == GG_Q_TEMPERATURE && changed > 0 && changed + 1 < all->replica[0].series.n &&
-        gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
+        gg_measure_sampler_find_history(&all->replica[0].sampler, row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, changed, list);
   }
   list->group = NULL;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "scene/scene.h"
+#include "theory/md_causes.h"
 
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
 {
@@ -60,23 +61,11 @@ static bool is_difference(gg_quantity q)
   return gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
 }
 
-/* Relative agreement expected of md and dsmc: 1 % where dilute (phi <= 0.05), 3 % up to phi = 0.3 with e >= 0.7, 10 %
- * beyond. For N1 and N2, differences: 0.02, 0.05 beyond. */
-static double expected_deviation(const gg_model *m, gg_quantity q)
-{
-  bool dissipative = false;
-  for (int i = 0; i < m->n_species; i++)
-    for (int j = 0; j < m->n_species; j++) dissipative = dissipative || m->e[gg_pair(i, j)] < 0.7;
-  if (is_difference(q)) return m->phi <= 0.3 && !dissipative ? 0.02 : 0.05;
-  if (m->phi <= 0.05) return dissipative ? 0.015 : 0.01;
-  return m->phi <= 0.3 && !dissipative ? 0.03 : 0.10;
-}
-
 bool gg_run_is_beyond(const gg_model *m, gg_quantity q, const gg_estimate *mean, const gg_estimate *reference)
 {
   const double difference = fabs(mean->mean - reference->mean), scale = is_difference(q) ? 1 : fabs(reference->mean),
                error = hypot(isfinite(mean->error) ? mean->error : 0, reference->error);
-  return difference > 4 * error && difference > expected_deviation(m, q) * scale;
+  return difference > 4 * error && difference > gg_theory_expected_deviation(m, q) * scale;
 }
 
 /* A user-defined quantity may have another number in a result that was read from a file. */
@@ -119,7 +108,7 @@ static double unexpected(const gg_comparison *c, const gg_estimate *e, gg_quanti
 {
   double off = gg_run_deviation(e, theory);
   bool known = isfinite(off) && fabs(theory - e->mean) > 4 * (isnan(e->error) ? 0 : e->error);
-  return known && fabs(off) > expected_deviation(&c->model, q) ? off : NAN;
+  return known && fabs(off) > gg_theory_expected_deviation(&c->model, q) ? off : NAN;
 }
 
 static const char no_cause[] = "no cause known: within the range that the theory was made for";

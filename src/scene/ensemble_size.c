@@ -4,14 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Means lie off by so much over the number of grains, those of the scarcest species: fluctuations of T lower it by half
- * their relative variance, as its rate of change bends. Measured
- * (validation/noise_free/monte_carlo_bias.c): 0.5 to 1.5 in T, the stresses and the viscosity. */
-#define BIAS_TIMES_N 2
-/* Between walls the flow fluctuates, too, and what dissipates follows: T of dense Couette flows rises by 4 to 22 of 1/N
- * (phi = 0.1 and 0.3, e = 0.5 to 0.9, N = 1000 beside 20000), of a dilute one by 0.4(0.7) (phi = 0.01). */
-#define BIAS_BETWEEN_WALLS 25
-#define BIAS_BY_PHI 230
+#include "common/finite_size.h"
+
 /* Kept below this share of the requested error; between walls, where waves across the gap make long runs, below half.
  */
 #define SHARE 0.25
@@ -32,22 +26,9 @@ double gg_scene_ensemble_size_error(const gg_scene *s)
   return s->fixed.ensemble_error != GG_AUTO ? s->fixed.ensemble_error : gg_scene_ensemble_requested_error(s);
 }
 
-static double bias_times_n(gg_flow flow, double phi)
-{
-  return gg_flow_is_walled(flow) ? fmin(BIAS_TIMES_N + BIAS_BY_PHI * phi, BIAS_BETWEEN_WALLS) : BIAS_TIMES_N;
-}
-
 double gg_scene_ensemble_most_bias(gg_flow flow)
 {
   return gg_flow_is_walled(flow) ? SHARE_BETWEEN_WALLS : SHARE;
-}
-
-double gg_scene_ensemble_bias(const gg_model *m)
-{
-  int64_t least = m->n;
-  for (int i = 0; i < m->n_species; i++)
-    if (m->n_of[i] > 0 && m->n_of[i] < least) least = m->n_of[i];
-  return bias_times_n(m->flow, m->phi) / (double)least;
 }
 
 static double scarcest(const gg_scene *s)
@@ -63,7 +44,8 @@ static double scarcest(const gg_scene *s)
 static double needed(const gg_scene *s)
 {
   const double error = gg_scene_ensemble_size_error(s);
-  return error > 0 ? ceil(bias_times_n(s->flow, s->phi) / (gg_scene_ensemble_most_bias(s->flow) * error * scarcest(s)))
+  return error > 0 ? ceil(gg_common_finite_size_bias(s->flow, s->phi) /
+                          (gg_scene_ensemble_most_bias(s->flow) * error * scarcest(s)))
                    : 0;
 }
 
@@ -82,7 +64,7 @@ int64_t gg_scene_ensemble_size(const gg_scene *s)
 void gg_scene_ensemble_size_reason(const gg_scene *s, char *text, size_t size)
 {
   const double error = gg_scene_ensemble_size_error(s), most = gg_scene_ensemble_most_bias(s->flow),
-               bias = bias_times_n(s->flow, s->phi) / ((double)gg_scene_ensemble_size(s) * scarcest(s));
+               bias = gg_common_finite_size_bias(s->flow, s->phi) / ((double)gg_scene_ensemble_size(s) * scarcest(s));
   *text = 0;
   if (is_given(s)) return;
   if (!(error > 0))

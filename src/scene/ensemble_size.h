@@ -13,9 +13,7 @@ double gg_scene_ensemble_requested_error(const gg_scene *scene);
 
 double gg_scene_ensemble_size_error(const gg_scene *scene);
 int64_t gg_scene_ensemble_size(const gg_scene *scene);
-/* Means of an ensemble of this model lie off by up to this share, as 1/N. */
-double gg_scene_ensemble_bias(const gg_model *model);
-/* The share of the requested error that this may be: a quarter, between walls half. */
+/* The share of the requested error that the bias by their number may be: a quarter, between walls half. */
 double gg_scene_ensemble_most_bias(gg_flow flow);
 /* Why so many, as a sentence's second half: "chosen: ..."; "" where the scene gives the number. */
 void gg_scene_ensemble_size_reason(const gg_scene *scene, char *text, size_t size);

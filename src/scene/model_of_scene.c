@@ -8,27 +8,6 @@
 #include "scene/ensemble_size.h"
 #include "scene/fields.h"
 
-/* Whole numbers of grains by species: the largest remainders are rounded up, among equal ones the first. */
-static void deal_grains(gg_model *m, const gg_scene *s)
-{
-  double total = 0, remainder[GG_MAX_SPECIES];
-  for (int i = 0; i < m->n_species; i++) total += s->species[i].fraction;
-  int64_t left = m->n;
-  for (int i = 0; i < m->n_species; i++) {
-    double exact = (double)m->n * s->species[i].fraction / total;
-    m->n_of[i] = (int64_t)floor(exact * (1 + 1e-15));
-    remainder[i] = exact - (double)m->n_of[i];
-    left -= m->n_of[i];
-  }
-  for (; left > 0; left--) {
-    int next = 0;
-    for (int i = 1; i < m->n_species; i++)
-      if (remainder[i] > remainder[next]) next = i;
-    m->n_of[next]++;
-    remainder[next] = -1;
-  }
-}
-
 static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *err)
 {
   for (int i = 0; m->n_species > 1 && i < m->n_species; i++)
@@ -46,8 +25,8 @@ static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *er
 static void set_fractions(gg_model *m, const gg_scene *s, bool counted)
 {
   double total = 0;
-  if (counted) deal_grains(m, s);
-  for (int i = 0; i < m->n_species; i++) total += s->species[i].fraction;
+  for (int i = 0; i < m->n_species; i++) m->fraction[i] = s->species[i].fraction, total += m->fraction[i];
+  if (counted) gg_common_species_deal(m->n, m->n_species, m->fraction, m->n_of);
   for (int i = 0; i < m->n_species; i++)
     m->fraction[i] = counted ? (double)m->n_of[i] / (double)m->n : s->species[i].fraction / total;
 }

@@ -6,11 +6,6 @@
 #include "common/expression.h"
 #include "scene/fields.h"
 
-/* Gauss-Legendre quadrature of 8 points, the upper half of the nodes and their weights. */
-enum { HALF = 4 };
-static const double node[HALF] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-static const double weight[HALF] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
-
 static gg_expression formula_of(const gg_scene *s)
 {
   gg_expression e = {0};
@@ -18,30 +13,9 @@ static gg_expression formula_of(const gg_scene *s)
   return e;
 }
 
-/* The same bits on every machine. */
-static double rate_at(const gg_expression *e, double t)
-{
-  uint64_t unused;
-  return gg_common_expression_branch(e, &t, &unused);
-}
-
 static double length_of(const gg_scene *s)
 {
   return s->run.duration / (double)gg_scene_shear_steps(s);
-}
-
-/* Mean over step k, and in *largest the largest absolute value at its ends and at the nodes. */
-static double mean_of(const gg_expression *e, double from, double length, double *largest)
-{
-  double sum = 0, most = 0;
-  for (int end = 0; end < 2; end++) most = fmax(most, fabs(rate_at(e, from + end * length)));
-  for (int k = 0; k < 2 * HALF; k++) {
-    const double at = (1 + (k % 2 ? 1 : -1) * node[k / 2]) / 2, rate = rate_at(e, from + at * length);
-    sum += weight[k / 2] / 2 * rate;
-    most = fmax(most, fabs(rate));
-  }
-  *largest = isfinite(sum) ? most : NAN;
-  return sum;
 }
 
 int64_t gg_scene_shear_steps(const gg_scene *s)
@@ -60,7 +34,7 @@ double gg_scene_shear_rate(const gg_scene *s, int64_t step)
   double unused;
   if (gg_scene_shear_steps(s) == 0) return s->shear.rate;
   const gg_expression e = formula_of(s);
-  return mean_of(&e, (double)step * length_of(s), length_of(s), &unused);
+  return gg_common_expression_mean(&e, (double)step * length_of(s), length_of(s), &unused);
 }
 
 double gg_scene_shear_strain(const gg_scene *s, double time)
@@ -69,7 +43,8 @@ double gg_scene_shear_strain(const gg_scene *s, double time)
   const double length = length_of(s);
   double strain = 0, unused;
   for (int64_t k = 0; k < gg_scene_shear_steps(s) && (double)k * length < time; k++)
-    strain += mean_of(&e, (double)k * length, length, &unused) * fmin(length, time - (double)k * length);
+    strain +=
+        gg_common_expression_mean(&e, (double)k * length, length, &unused) * fmin(length, time - (double)k * length);
   return strain;
 }
 
@@ -101,7 +76,7 @@ gg_status gg_scene_shear_finish(gg_scene *s, gg_error *err)
   double most = 0;
   for (int64_t k = 0; k < gg_scene_shear_steps(s) && !isnan(most); k++) {
     double largest;
-    mean_of(&e, (double)k * length_of(s), length_of(s), &largest);
+    gg_common_expression_mean(&e, (double)k * length_of(s), length_of(s), &largest);
     most = isnan(largest) ? NAN : fmax(most, largest);
   }
   if (!(most > 0 && most < 1e30))

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep/agreement.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <string.h>
 
 #include "common/quantity.h"
-
-/* Degrees of freedom of Student's t: a standard error comes from sixteen blocks or more. The variance of a z-score is
- * nu/(nu - 2), and the variance of z^2 follows from the fourth moment. */
-static const double freedom = 15;
 
 bool gg_sweep_is_main_quantity(const char *quantity)
 {
@@ -33,7 +28,7 @@ static gg_agreement_row *row_for(gg_agreement *a, const char *quantity)
   for (int i = 0; i < a->n; i++)
     if (strcmp(a->row[i].quantity, quantity) == 0) return &a->row[i];
   if (a->n == GG_AGREEMENT_QUANTITIES) return NULL;
-  a->row[a->n] = (gg_agreement_row){.quantity = quantity};
+  a->row[a->n].quantity = quantity;
   return &a->row[a->n++];
 }
 
@@ -41,9 +36,8 @@ static void add(gg_agreement *a, const gg_point_row *row)
 {
   gg_agreement_row *of = row_for(a, row->quantity);
   if (!of) return;
-  of->n++, a->n_values++;
-  of->sum += row->z, of->squares += row->z * row->z;
-  of->largest = fmax(of->largest, fabs(row->z));
+  a->n_values++;
+  gg_statistics_scores_add(&of->scores, row->z);
 }
 
 static void count_points(gg_agreement *a, const gg_grid_view *v)
@@ -60,24 +54,12 @@ static void count_points(gg_agreement *a, const gg_grid_view *v)
   }
 }
 
-/* Points are independent of each other, quantities of one point are not. Each test has its part of the chance, so the
- * bound holds for any dependence (Bonferroni). */
+/* Points are independent of each other, quantities of one point are not. */
 static void judge(gg_agreement *a)
 {
-  enum { TESTS = 3 };
-  const double share = GG_AGREEMENT_CHANCE / TESTS, of_one = share / (a->n ? a->n : 1);
-  const double variance = freedom / (freedom - 2),
-               of_squares = variance * variance * (3 * (freedom - 2) / (freedom - 4) - 1);
-  a->most = a->n_values ? gsl_cdf_tdist_Qinv(share / (2 * (double)a->n_values), freedom) : INFINITY;
-  for (int i = 0; i < a->n; i++) {
-    gg_agreement_row *r = &a->row[i];
-    const double n = (double)r->n, shape = n * variance * variance / of_squares;
-    r->mean = r->sum / n, r->variance = r->squares / n;
-    r->most_mean = gsl_cdf_ugaussian_Qinv(of_one / 2) * sqrt(variance / n);
-    r->most_variance = r->n < 4 ? INFINITY : gsl_cdf_gamma_Qinv(of_one, shape, variance / shape);
-    r->fails = fabs(r->mean) > r->most_mean || r->variance > r->most_variance || r->largest > a->most;
-    a->fails |= r->fails;
-  }
+  a->most = gg_statistics_scores_most(GG_AGREEMENT_CHANCE, a->n_values);
+  for (int i = 0; i < a->n; i++)
+    a->fails |= gg_statistics_scores_judge(&a->row[i].scores, GG_AGREEMENT_CHANCE, a->n, a->most);
 }
 
 void gg_sweep_agreement_make(gg_agreement *a, const gg_grid_view *v)

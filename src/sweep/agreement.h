@@ -3,6 +3,7 @@
 #ifndef GG_AGREEMENT_H
 #define GG_AGREEMENT_H
 
+#include "statistics/scores.h"
 #include "sweep/grid_view.h"
 
 enum { GG_AGREEMENT_QUANTITIES = 32 };
@@ -10,11 +11,7 @@ enum { GG_AGREEMENT_QUANTITIES = 32 };
 /* One main quantity over all points. */
 typedef struct gg_agreement_row {
   const char *quantity;
-  size_t n;                        /* points */
-  double sum, squares;             /* of z */
-  double mean, variance, largest;  /* variance about zero; largest |z| */
-  double most_mean, most_variance; /* what chance allows; INFINITY: too few points to tell */
-  bool fails;
+  gg_scores scores; /* one a point */
 } gg_agreement_row;
 
 typedef struct gg_agreement {

@@ -207,7 +207,7 @@ static gg_status add_theories(const gg_scene *scene, double *seconds, gg_error *
 {
   gg_model model;
   GG_TRY(gg_scene_model_for_theories(scene, &model, err));
-  *seconds += gg_run_cost_of_theories(&model);
+  *seconds += gg_theory_seconds(&model);
   return GG_OK;
 }
 

@@ -136,10 +136,10 @@ static void print_agreement_table(const writing *w)
   gg_sweep_text_row(w->table);
   gg_sweep_text_cells(w->table, "quantity\tpoints\tmean of z\tallowed\tmean of z^2\tallowed\tlargest");
   for (int i = 0; i < w->agreement->n; i++) {
-    const gg_agreement_row *r = &w->agreement->row[i];
+    const gg_scores *r = &w->agreement->row[i].scores;
     gg_sweep_text_row(w->table);
-    gg_sweep_text_cells(w->table, "%s%s\t%zu\t%+.2f\t+-%.2f\t%.2f", r->quantity, r->fails ? " !" : "", r->n, r->mean,
-                        r->most_mean, r->variance);
+    gg_sweep_text_cells(w->table, "%s%s\t%zu\t%+.2f\t+-%.2f\t%.2f", w->agreement->row[i].quantity, r->fails ? " !" : "",
+                        r->n, r->mean, r->most_mean, r->variance);
     gg_sweep_text_cells(w->table, isfinite(r->most_variance) ? "%.2f" : "-", r->most_variance);
     gg_sweep_text_cells(w->table, "%.1f", r->largest);
   }

@@ -5,15 +5,10 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "io/checked_json.h"
 #include "base/memory.h"
 #include "common/quantity.h"
+#include "io/checked_json.h"
 #include "sweep/verdict.h"
-
-static json_t *number(double x)
-{
-  return isfinite(x) ? json_real(x) : json_null();
-}
 
 /* The number of the point, and its keys as in the table. */
 static json_t *point_json(const gg_grid_view *v, size_t point)
@@ -33,17 +28,18 @@ static json_t *agreement_json(const gg_agreement *a)
 {
   json_t *rows = json_array();
   for (int i = 0; i < a->n; i++) {
-    const gg_agreement_row *r = &a->row[i];
+    const gg_scores *r = &a->row[i].scores;
     json_array_append_new(rows,
-                          json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "quantity", r->quantity, "points",
-                                    (json_int_t)r->n, "mean_z", number(r->mean), "mean_z_allowed", number(r->most_mean),
-                                    "mean_z2", number(r->variance), "mean_z2_allowed", number(r->most_variance),
-                                    "largest_z", number(r->largest), "fails", r->fails));
+                          json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "quantity", a->row[i].quantity,
+                                    "points", (json_int_t)r->n, "mean_z", gg_io_json_finite(r->mean), "mean_z_allowed",
+                                    gg_io_json_finite(r->most_mean), "mean_z2", gg_io_json_finite(r->variance),
+                                    "mean_z2_allowed", gg_io_json_finite(r->most_variance), "largest_z",
+                                    gg_io_json_finite(r->largest), "fails", r->fails));
   }
   json_t *agrees = a->n_values ? json_boolean(!a->fails) : json_null(); /* null: nothing was compared */
   return json_pack("{s:o, s:I, s:I, s:I, s:I, s:o, s:o}", "agrees", agrees, "points", (json_int_t)a->n_points, "values",
                    (json_int_t)a->n_values, "without_solution", (json_int_t)a->unanswered, "not_steady",
-                   (json_int_t)a->unsteady, "z_allowed", number(a->most), "quantities", rows);
+                   (json_int_t)a->unsteady, "z_allowed", gg_io_json_finite(a->most), "quantities", rows);
 }
 
 static json_t *worst_json(const gg_grid_view *v, const char *repeat)
@@ -52,9 +48,10 @@ static json_t *worst_json(const gg_grid_view *v, const char *repeat)
   const gg_point_row **found = gg_base_array_new(v->table->n + 1, sizeof(void *), NULL);
   for (size_t i = 0, n = found ? gg_sweep_find_worst(v, found) : 0; i < n; i++) {
     json_t *row = point_json(v, found[i]->point);
-    json_object_update_new(row, json_pack("{s:o, s:s, s:o, s:o, s:o}", "z", number(found[i]->z), "quantity",
-                                          found[i]->quantity, "dsmc", number(found[i]->mean), "error",
-                                          number(found[i]->error), "enskog_hermite", number(found[i]->reference_mean)));
+    json_object_update_new(row, json_pack("{s:o, s:s, s:o, s:o, s:o}", "z", gg_io_json_finite(found[i]->z), "quantity",
+                                          found[i]->quantity, "dsmc", gg_io_json_finite(found[i]->mean), "error",
+                                          gg_io_json_finite(found[i]->error), "enskog_hermite",
+                                          gg_io_json_finite(found[i]->reference_mean)));
     if (repeat) json_object_set_new(row, "repeat", json_sprintf("%s %zu", repeat, found[i]->point + 1));
     json_array_append_new(rows, row);
   }
@@ -75,9 +72,10 @@ static void add_counts(json_t *rows, const gg_grid_view *v, const char *method, 
     snprintf(text, sizeof text, "%g", gg_sweep_thresholds[k]);
     json_object_set_new(beyond, text, json_integer((json_int_t)c.off[k]));
   }
-  json_array_append_new(rows, json_pack("{s:s, s:s, s:I, s:o, s:o, s:o}", "method", method, "quantity", quantity,
-                                        "points", (json_int_t)c.n, "beyond", beyond, "largest", number(c.largest),
-                                        "where", c.where ? point_json(v, c.where->point) : json_null()));
+  json_array_append_new(rows,
+                        json_pack("{s:s, s:s, s:I, s:o, s:o, s:o}", "method", method, "quantity", quantity, "points",
+                                  (json_int_t)c.n, "beyond", beyond, "largest", gg_io_json_finite(c.largest), "where",
+                                  c.where ? point_json(v, c.where->point) : json_null()));
 }
 
 /* Add the counts of the main quantities for every method. */
@@ -113,10 +111,10 @@ json_t *gg_sweep_verdict_document(const gg_grid_view *v, const gg_agreement *a, 
 {
   const unsigned before = gg_base_memory_failures();
   return gg_io_json_end(before,
-                          json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version,
-                                    "points", (json_int_t)v->sweep->n, "done", (json_int_t)v->table->n_documents,
-                                    "dsmc", agreement_json(a), "largest_z", worst_json(v, repeat), "deviations",
-                                    counts_json(v), "not_steady", trouble_json(v, gg_sweep_not_steady),
-                                    "not_homogeneous", trouble_json(v, gg_sweep_not_homogeneous), "without_reference",
-                                    trouble_json(v, gg_sweep_no_reference)));
+                        json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version,
+                                  "points", (json_int_t)v->sweep->n, "done", (json_int_t)v->table->n_documents, "dsmc",
+                                  agreement_json(a), "largest_z", worst_json(v, repeat), "deviations", counts_json(v),
+                                  "not_steady", trouble_json(v, gg_sweep_not_steady), "not_homogeneous",
+                                  trouble_json(v, gg_sweep_not_homogeneous), "without_reference",
+                                  trouble_json(v, gg_sweep_no_reference)));
 }

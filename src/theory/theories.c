@@ -163,3 +163,17 @@ gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_
   if (gg_base_memory_failures() != before) return gg_base_out_of_memory(err);
   return finish(theory, model, status, err);
 }
+
+/* Enskog's equation solved without random numbers: quadratures over pairs of species, of which shear has the more; the
+ * viscosity of mixtures up to six species. All others are formulas, or small equations. */
+double gg_theory_seconds(const gg_model *m)
+{
+  enum { MOST_SHEARED = 8, MOST_VISCOUS = 6 };
+  const double formulas = 0.02, n = m->n_species;
+  const bool sheared = m->flow == GG_USF || m->flow == GG_HEATED_SHEAR;
+  if (!(gg_theory_enskog_hermite.flows & GG_FLOW_BIT(m->flow)) || m->law.name) return formulas;
+  if (m->rule == GG_ROUGH && n == 1) return 0.9;
+  if (m->rule != GG_SMOOTH || (sheared && n > MOST_SHEARED)) return formulas;
+  if (sheared) return 1.5 * pow(n, 1.5);
+  return n > MOST_VISCOUS ? 1 : 0.5 + 0.4 * n * n;
+}

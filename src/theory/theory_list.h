@@ -45,4 +45,8 @@ GG_THEORIES(GG_THEORY_CONSTANT)
 enum { GG_N_THEORIES = 0 GG_THEORIES(GG_THEORY_COUNT) };
 #undef GG_THEORY_COUNT
 
+/* Seconds of processor time for all theories of a model, right within a factor of three; longest where the program was
+ * built without the machine's own instructions. */
+double gg_theory_seconds(const gg_model *model);
+
 #endif

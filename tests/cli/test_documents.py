@@ -25,7 +25,7 @@ def none(missing):
 
 def test_reference_pages():
     """Keys, quantities and commands, from the program's tables: a new key is a new line there."""
-    for name in "scene", "quantities", "commands":
+    for name in "scene", "quantities", "commands", "support":
         text = page(name)
         check(len(text) > 5000, name)
         check(text == documents()[f"docs/reference/{name}.md"], f"docs/reference/{name}.md is not what the program's tables say: "
@@ -264,15 +264,71 @@ GASES = {"flow: usf": "smooth grains, shear, collisions that lose energy", "flow
          "flow: fourier": "smooth grains, walls, collisions that lose energy", "flow: chute": "smooth grains, walls, collisions that lose energy"}
 
 
+def flows_of(support, word):
+    """{flow: cell} of a row of docs/reference/support.md."""
+    head, row = (re.search(rf"^\| {name} \|(.*)\|$", support, re.MULTILINE)[1].split("|") for name in
+                 ("observable" if f"| `{word}` |" in support.split("## Theories")[0] else "theory", f"`{word}`"))
+    return {flow.strip().replace(" ", "_"): cell.strip() for flow, cell in zip(head, row) if flow.strip() != "not of"}
+
+
+def test_info_names_the_flows_of_the_page():
+    """`graingas info` of an observable names the flows that the page of support has, of a flow the thermostats; scenes
+    with them are accepted, others rejected or warned of."""
+    support, (names, _) = documents()["docs/reference/support.md"], names_of("observables")
+    for name in names:
+        told = run("info", name, "--all").out
+        for engine in "md", "dsmc":
+            flows = re.search(rf"^  {engine} +((?:.|\n   )*)", told, re.MULTILINE)[1].split()
+            expected = [flow for flow, cell in flows_of(support, name).items() if engine[0] in cell]
+            check([flow.strip(",") for flow in flows] == (expected or ["none"]), name, engine, told)
+    for flow, thermostats in re.findall(r"^\| `(\w+)` \|.*\| ([^|]*) \|$", support.split("## Observables")[0], re.MULTILINE):
+        thermostats = thermostats.replace("\\", "")
+        check(f"\n  thermostats  {thermostats}\n" in run("info", flow, "--all").out, flow, thermostats)
+        for one in "none", "gaussian", "white_noise", "bath":
+            done = run("info", "-", typed=f"flow: {flow}\nphi: 0.1\nthermostat: {one}\nbath: {{drag: 1, temperature: 1}}\n")
+            check((one in thermostats.split(", ")) == ("thermostat" not in done.err), flow, one, done.err)
+
+
+def test_flows_of_theories():
+    """The table of theories names flows as the program does."""
+    words = {"shear": {"usf"}, "shear, also in a bath": {"usf"}, "cooling": {"hcs", "small_shear"}, "heated": {"hss", "small_shear"},
+             "Gaussian-heated": {"hss", "small_shear"}, "Gaussian heating": {"hss", "small_shear"}, "equilibrium": {"equilibrium"}, "Couette": {"couette"},
+             "Poiseuille": {"poiseuille"}, "closed chute": {"chute"}, "Fourier": {"fourier"}, "shear (also heated)": {"usf", "heated_shear"},
+             "in a bath": {"usf", "hss"}, "heated by a bath": {"hss"}, "by noise of given strength": {"hss"}, "at a given rate": {"hss"},
+             "in shear as a scale": {"usf"}, "also in a bath": {"usf"}, "the same": {"hcs", "hss", "small_shear"}}
+    support, wrong = documents()["docs/reference/support.md"], set()
+    for names, flows in re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| ([^|]+) \|[^|]*\|[^|]*\|[^|]*\|$", documents()["docs/reference/theories.md"], re.MULTILINE):
+        for name in re.findall(r"\w+", names):
+            said = set().union(*(words[word.strip()] for word in re.split(r"[,;] ", flows)))
+            does = {flow for flow, cell in flows_of(support, name).items() if cell}
+            if not does <= said or not said - {"small_shear"} <= does:
+                wrong.add(f"{name}: {flows}; the program: {', '.join(sorted(does))}")
+    none(wrong)
+
+
+def test_one_claim_of_speed():
+    """Factors of speed in documents are those of the table of run time against error."""
+    pages = documents()
+    rows, mean = {}, ""
+    for state, quantity, factor in re.findall(r"^\|([^|]*)\| (T|N1) \|(?:[^|]*\|){5} (\d+) \|$", pages["docs/explanation/performance.md"], re.MULTILINE):
+        rows.setdefault(quantity, []).append(int(factor))
+    check(len(rows["T"]) >= 4 and len(rows["N1"]) >= 4, rows)
+    words = "%d to %d times faster%s for T, %d to %d times for N1"
+    expected = [words % (min(rows["T"]), max(rows["T"]), than, min(rows["N1"]), max(rows["N1"])) for than in (" than md", "")]
+    check(expected[0] in pages["docs/explanation/performance.md"] and expected[1] in pages["docs/howto/choose_md_or_dsmc.md"], expected)
+    none({name for name, text in pages.items() for found in re.findall(r"dsmc\W[^.|\n]*\d times faster[^.|\n]*", text) if not any(one in found for one in expected)})
+
+
 def test_the_table_of_observables():
-    """The engines and conditions of the table are those of the program: what each engine measures in each of GASES."""
+    """The engines and conditions of the table are those of the program: what each engine measures in each of GASES. So
+    are the flows on the page of support."""
     names, _ = names_of("observables")
     rows = dict((name, (engines.split(", "), set(filter(None, without.split(", "))))) for name, engines, without in re.findall(
         r"^\| \[?`(\w+)`\]?[^|]*\| [^|]* \| ([^|]*) \| ([^|]*?) ?\|", documents()["docs/reference/observables.md"], re.MULTILINE) if name in names)
     check(set(rows) == set(names), set(names) ^ set(rows))
     known = set(", ".join(GASES.values()).split(", ")) | {"flows without walls", "other flows than `small_shear`"}
     none({f"condition of no scene here: {word}" for _, without in rows.values() for word in without - known})
-    wrong = set()
+    wrong, support = set(), documents()["docs/reference/support.md"]
     for gas, its in GASES.items():
         holds = set(its.split(", ")) | ({"flows without walls"} if "walls" not in its else set())
         holds |= {"other flows than `small_shear`"} if "`small_shear`" not in its else set()
@@ -285,6 +341,9 @@ def test_the_table_of_observables():
             for name, (engines, without) in rows.items():
                 if (engine in engines and not without & holds) != (name not in out):
                     wrong.add(f"{name}: {'not ' * (name in out)}measured by {engine} in {gas!r}")
+                said = engine[0] in flows_of(support, name).get(gas.split()[1], "")
+                if said < (name not in out) or ("beta" in gas and "mu" not in gas and said != (name not in out)):
+                    wrong.add(f"support.md: {name} of {engine} in {gas!r}")
     none(wrong)
 
 

@@ -2,6 +2,7 @@
 """scripts/build-site makes pages of all documents, of the C interface and of the Python module, without a warning of
 Sphinx or Doxygen and without a dead link. Skipped where its tools are not installed; notebooks have tests of their own."""
 import importlib.util
+import json
 import os
 import re
 import shutil
@@ -29,7 +30,7 @@ def site():
         raise Skip("sanitizers would have to be loaded before Python")
     if not os.path.isdir(os.path.join(BUILD, "python", "graingas")):
         raise Skip("this build has no Python module")
-    for tool in "doxygen", "sphinx-build", "pandoc":
+    for tool in "doxygen", "sphinx-build", "pandoc", "esbuild":
         if not shutil.which(tool):
             raise Skip(f"{tool} is not installed")
     for module in "sphinx", "myst_parser", "furo", "breathe", "nbsphinx", "cffi", "numpy", "matplotlib", "pandas", "xarray", "ipykernel":
@@ -94,6 +95,27 @@ def test_formulas_and_search():
     check(r"\[\mathbf g'\cdot\mathbf k" in text and "_static/mathjax/MathJax.js" in text)
     check(os.path.exists(os.path.join(HTML, "_static", "mathjax", "jax", "output", "CommonHTML", "jax.js")))
     check("gg_scene_copi" in page("searchindex.js") or "gg_scene_copy" in page("searchindex.js"))
+
+
+def test_in_a_browser():
+    """At 1366 columns, from the disk: no message, every style sheet, the contents on the screen, a button for the theme
+    that acts, so that the theme's script runs."""
+    site()
+    node, script = shutil.which("node"), os.path.join(SOURCE, "tests", "cli", "site_in_browser.js")
+    if not node or not any(map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))):
+        raise Skip("node or Chromium is not installed")
+    names = "index", "docs/reference/quantities", "docs/howto/python", "docs/explanation/dsmc", "site/python_module", "site/c/scenes"
+    done = subprocess.run([node, script, *(os.path.join(HTML, *name.split("/")) + ".html" for name in names)], capture_output=True, text=True,
+                          timeout=200 * PATIENCE)
+    check(done.returncode == 0, done.stderr)
+    pages = [json.loads(line) for line in done.stdout.splitlines()]
+    check(len(pages) == len(names), done.stdout)
+    for one in pages:
+        check(not one["said"] and not one["failed"] and not one["elsewhere"], one)
+        check(one["margin"] == "0px", one)  # of normalize.css
+        check(one["wide"] <= one["window"] == 1366 and one["theme"][0] != one["theme"][1], one)
+        check(one["contents"] is None or 0 <= one["contents"][0] < one["contents"][1] <= 1366, one)
+    check(sum(one["contents"] is not None for one in pages) >= 4, pages)
 
 
 def test_dead_links_are_found():

@@ -108,7 +108,7 @@ static void a_row_is_the_same_grain_in_every_frame(void **state)
   for (uint64_t step = 0; step <= 100; step += 50) {
     gg_frame frame = planted_frame(step, true);
     assert_int_equal(gg_files_result_file_frame(&f, &r->model, &frame, &err), GG_OK);
-    gg_run_frame_free(&frame);
+    gg_measure_frame_free(&frame);
   }
   assert_int_equal(gg_files_result_file_finish_run(&f, r, &err),
                    GG_OK); /* the last state is frame 100 again: not doubled */
@@ -144,7 +144,7 @@ static void frames_of_the_window(void **state)
     for (uint64_t step = 0; step <= 100; step += 50) {
       gg_frame frame = planted_frame(step, true);
       assert_int_equal(gg_files_result_file_frame(&f, &r->model, &frame, &err), GG_OK);
-      gg_run_frame_free(&frame);
+      gg_measure_frame_free(&frame);
     }
     assert_int_equal(gg_files_result_file_finish_run(&f, r, &err), GG_OK);
     gg_h5_in h;
@@ -215,7 +215,7 @@ static void failing_trajectory(void **state)
   for (uint64_t step = 0; step < 300 && status == GG_OK; step++) {
     gg_frame frame = planted_frame(step, true);
     status = gg_files_result_file_frame(&f, &r->model, &frame, &err);
-    gg_run_frame_free(&frame);
+    gg_measure_frame_free(&frame);
   }
   gg_status end = status == GG_OK ? gg_files_result_file_finish_run(&f, r, &err) : status;
   gg_files_result_file_abandon(&f);
@@ -302,7 +302,7 @@ static void two_in_memory(void **state)
       if (step == 0) assert_int_equal(gg_files_result_file_open(&f[i], "pipe", "x", &err), GG_OK);
       gg_frame frame = planted_frame(step, true);
       if (gg_files_result_file_frame(&f[i], &r->model, &frame, &err) != GG_OK) fail_msg("%s", err.message);
-      gg_run_frame_free(&frame);
+      gg_measure_frame_free(&frame);
     }
   for (int i = 0; i < 2; i++) gg_files_result_file_abandon(&f[i]);
   close(in);

@@ -244,7 +244,7 @@ static gg_result *gas_of(size_t n, double phi, bool mixed)
   if (gg_scene_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
   gg_frame *f = &r->final;
   gg_rng rng = gg_common_rng_seed(1, 0);
-  gg_run_frame_free(f);
+  gg_measure_frame_free(f);
   *f = (gg_frame){.time = 1,
                   .step = 100,
                   .n = n,

@@ -141,6 +141,7 @@ static const gg_engine_ops ops = {
     .doc = "planted answers",
     .accepts = accepts,
     .bytes = bytes,
+    .nanoseconds = bytes,
     .create = create,
     .destroy = destroy,
     .advance = advance,

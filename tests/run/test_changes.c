@@ -58,26 +58,26 @@ static void continue_with(const gg_replica *from, gg_replica *to)
   gg_base_archive_clear(&archive);
   to->clock = from->clock;
   to->clock.changes = 0;
-  assert_int_equal(from->n_observables, to->n_observables);
-  for (int k = 0; k < to->n_observables; k++) {
-    const gg_observable *o = to->observable[k];
+  assert_int_equal(from->sampler.n_observables, to->sampler.n_observables);
+  for (int k = 0; k < to->sampler.n_observables; k++) {
+    const gg_observable *o = to->sampler.observable[k];
     size_t bytes, same;
-    assert_ptr_equal(o, from->observable[k]);
+    assert_ptr_equal(o, from->sampler.observable[k]);
     if (!o->rows || !o->memory) continue;
-    void *memory = o->memory(to->self[k], &bytes);
-    memcpy(memory, o->memory(from->self[k], &same), bytes);
+    void *memory = o->memory(to->sampler.self[k], &bytes);
+    memcpy(memory, o->memory(from->sampler.self[k], &same), bytes);
     assert_int_equal(bytes, same);
   }
 }
 
 static gg_curves curves_of(const gg_replica *r, int k)
 {
-  const gg_bins *list[] = {&r->bins[k]};
-  const gg_observable *o = r->observable[k];
+  const gg_bins *list[] = {&r->sampler.bins[k]};
+  const gg_observable *o = r->sampler.observable[k];
   gg_curves curves = {.model = &r->model};
   gg_error err = {0};
-  expect_ok(gg_measure_curves_estimate(list, 1, o->curves->of_bins, r->self[k], o->name, 0, &curves, &err), o->name,
-            &err);
+  expect_ok(gg_measure_curves_estimate(list, 1, o->curves->of_bins, r->sampler.self[k], o->name, 0, &curves, &err),
+            o->name, &err);
   return curves;
 }
 
@@ -93,7 +93,7 @@ static size_t compare_curves(const char *what, const gg_replica *a, const gg_rep
 {
   gg_curves one = curves_of(a, k), two = curves_of(b, k);
   size_t known = 0;
-  if (one.n != two.n) fail_msg("%s: %s: %d curves and %d", what, a->observable[k]->name, one.n, two.n);
+  if (one.n != two.n) fail_msg("%s: %s: %d curves and %d", what, a->sampler.observable[k]->name, one.n, two.n);
   for (int i = 0; i < one.n; i++) {
     const gg_curve *c = &one.curve[i], *d = &two.curve[i];
     assert_string_equal(c->name, d->name);
@@ -121,8 +121,8 @@ static void compare_values(const char *what, const gg_replica *a, const gg_repli
     double value[2];
     const gg_replica *const both[] = {a, b};
     for (int i = 0; i < 2; i++) {
-      const int k = gg_run_replica_find_function(both[i], q, &f);
-      value[i] = k < 0 ? NAN : gg_function_value(f, both[i]->row + both[i]->offset[k], &both[i]->model);
+      const int k = gg_measure_sampler_find(&both[i]->sampler, q, &f);
+      value[i] = k < 0 ? NAN : gg_function_value(f, both[i]->sampler.row + both[i]->sampler.offset[k], &both[i]->model);
     }
     if (!same_numbers(&value[0], &value[1], 1))
       fail_msg("%s: %s is %.9g, expected %.9g", what, gg_common_quantity_name(q), value[0], value[1]);
@@ -151,8 +151,8 @@ static unsigned compare(const char *start, const char *change, gg_engine_kind en
   expect_ok(gg_run_replica_advance(&changed, ALL, false, NULL, &err), what, &err);
   expect_ok(gg_run_replica_advance(&same, ALL, false, NULL, &err), what, &err);
   compare_values(what, &changed, &same);
-  for (int k = 0; k < changed.n_observables; k++) {
-    const gg_observable *o = changed.observable[k];
+  for (int k = 0; k < changed.sampler.n_observables; k++) {
+    const gg_observable *o = changed.sampler.observable[k];
     measured |= o->flag;
     if (o->curves && compare_curves(what, &changed, &same, k) == 0) fail_msg("%s: %s measured nothing", what, o->name);
   }

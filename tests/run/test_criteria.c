@@ -44,17 +44,17 @@ static void windows_double_with_each_restart(void **state)
   (void)state;
   const gg_stopping_criteria p = {.least = 100, .longest = 5000, .relative_error = 0.01, .find_steady = true};
   for (uint64_t restarts = 0; restarts < 4; restarts++) {
-    assert_int_equal(gg_run_criteria_next_test(&p, restarts, NULL), 100 << restarts);
-    assert_false(gg_run_criteria_end(&p, restarts, (5000 << restarts) - 1));
-    assert_true(gg_run_criteria_end(&p, restarts, 5000 << restarts));
+    assert_int_equal(gg_statistics_rule_next_test(&p, restarts, NULL), 100 << restarts);
+    assert_false(gg_statistics_rule_ends(&p, restarts, (5000 << restarts) - 1));
+    assert_true(gg_statistics_rule_ends(&p, restarts, 5000 << restarts));
   }
   const gg_window_test once = {.window = 100, .ratio = 0.9, .exact = true},
                        sure = {.window = 100, .ratio = 0.9, .exact = true, .sure = true};
-  assert_false(gg_run_criteria_are_met(&once, false));
-  assert_true(gg_run_criteria_are_met(&once, true) && gg_run_criteria_are_met(&sure, false));
-  assert_int_equal(gg_run_criteria_next_test(&p, 0, &once), 150); /* confirmed by half as much again */
-  assert_true(fabs(gg_run_criteria_margin(&p, 10, 1000) - 1.06) < 1e-12);
-  assert_true(gg_run_criteria_margin(&(gg_stopping_criteria){0}, 10, 1000) == 1);
+  assert_false(gg_statistics_rule_is_met(&once, false));
+  assert_true(gg_statistics_rule_is_met(&once, true) && gg_statistics_rule_is_met(&sure, false));
+  assert_int_equal(gg_statistics_rule_next_test(&p, 0, &once), 150); /* confirmed by half as much again */
+  assert_true(fabs(gg_statistics_rule_margin(&p, 10, 1000) - 1.06) < 1e-12);
+  assert_true(gg_statistics_rule_margin(&(gg_stopping_criteria){0}, 10, 1000) == 1);
 }
 
 int main(void)

@@ -33,12 +33,12 @@ static gg_window_test test_of(double scale, uint64_t window, double sure_at)
 static double true_end(double scale, double sure_at)
 {
   bool exact = false;
-  uint64_t window = gg_run_criteria_next_test(&criteria, 0, NULL);
+  uint64_t window = gg_statistics_rule_next_test(&criteria, 0, NULL);
   for (;;) {
     gg_window_test t = test_of(scale, window, sure_at);
-    if (gg_run_criteria_are_met(&t, exact)) return (double)(criteria.warmup + window);
+    if (gg_statistics_rule_is_met(&t, exact)) return (double)(criteria.warmup + window);
     exact = t.exact;
-    window = gg_run_criteria_next_test(&criteria, 0, &t);
+    window = gg_statistics_rule_next_test(&criteria, 0, &t);
   }
 }
 
@@ -47,21 +47,21 @@ static double true_end(double scale, double sure_at)
 static void follow(double scale, double sure_at, int *exactly)
 {
   gg_progress_estimate o = {0};
-  struct gg_replicas_state s = {.averaging = 1, .due = criteria.warmup, .window_at = criteria.warmup};
+  gg_averaging_state s = {.averaging = 1, .due = criteria.warmup, .window_at = criteria.warmup};
   double end = true_end(scale, sure_at), window;
-  s.goal = s.window_at + gg_run_criteria_next_test(&criteria, 0, NULL);
-  assert_false(gg_run_progress_end(&o, &criteria, &s).known);
+  s.goal = s.window_at + gg_statistics_rule_next_test(&criteria, 0, NULL);
+  assert_false(gg_statistics_forecast_end(&o.forecast, &criteria, &s).known);
   for (; (double)s.due < end; s.due++) {
     window = (double)(s.due - s.window_at);
     if (s.due >= s.goal) {
       gg_window_test t = test_of(scale, (uint64_t)window, sure_at);
       s.exact = t.exact;
-      s.goal = s.window_at + gg_run_criteria_next_test(&criteria, 0, &t);
+      s.goal = s.window_at + gg_statistics_rule_next_test(&criteria, 0, &t);
     }
     if (window < 40) continue;
     gg_convergence c = errors_of(scale, window, sure_at);
     gg_run_progress_record_errors(&o, window, &c);
-    gg_expected_end estimate = gg_run_progress_end(&o, &criteria, &s);
+    gg_expected_end estimate = gg_statistics_forecast_end(&o.forecast, &criteria, &s);
     assert_true(estimate.at >= (double)s.due);
     if (window < (end - criteria.warmup) / 4) continue;
     if (fabs(estimate.at / end - 1) > 0.3)
@@ -101,15 +101,15 @@ static void so_many_collisions(void **state)
   (void)state;
   gg_progress_estimate o = {0};
   gg_stopping_criteria p = {.warmup = 20, .least = 150, .longest = 75000, .most = 200000};
-  struct gg_replicas_state s = {.due = 3};
-  gg_expected_end end = gg_run_progress_end(&o, &p, &s);
+  gg_averaging_state s = {.due = 3};
+  gg_expected_end end = gg_statistics_forecast_end(&o.forecast, &p, &s);
   assert_true(end.known && end.at == 200020);
-  s = (struct gg_replicas_state){.averaging = 1, .due = 90020, .window_at = 20, .goal = 100020};
-  end = gg_run_progress_end(&o, &p, &s);
+  s = (gg_averaging_state){.averaging = 1, .due = 90020, .window_at = 20, .goal = 100020};
+  end = gg_statistics_forecast_end(&o.forecast, &p, &s);
   assert_true(end.known && end.at == 200020);
-  assert_false(gg_run_criteria_end(&p, 0, 199999));
+  assert_false(gg_statistics_rule_ends(&p, 0, 199999));
   p.relative_error = 1e-9;
-  assert_true(gg_run_criteria_end(&p, 0, 75000)); /* out of reach */
+  assert_true(gg_statistics_rule_ends(&p, 0, 75000)); /* out of reach */
 }
 
 /* A window with a trend will be given up; one without a trend whose errors are not trusted yet will be extended. */
@@ -117,23 +117,23 @@ static void trends_and_trust(void **state)
 {
   (void)state;
   gg_progress_estimate o = {0};
-  struct gg_replicas_state s = {.averaging = 1, .due = 120, .window_at = 20, .goal = 170};
+  gg_averaging_state s = {.averaging = 1, .due = 120, .window_at = 20, .goal = 170};
   gg_convergence c = errors_of(0.05, 100, INFINITY);
   gg_run_progress_record_errors(&o, 100, &c);
-  gg_expected_end end = gg_run_progress_end(&o, &criteria, &s);
+  gg_expected_end end = gg_statistics_forecast_end(&o.forecast, &criteria, &s);
   assert_true(end.known && end.at == 20 + 225); /* the shortest test, and half as long again */
   c.trending = true;
   gg_run_progress_record_errors(&o, 100, &c);
-  end = gg_run_progress_end(&o, &criteria, &s);
+  end = gg_statistics_forecast_end(&o.forecast, &criteria, &s);
   assert_true(!end.known && end.at == 170 + 450); /* twice as long after that */
   s.restarts = 6;
-  assert_true(gg_run_progress_end(&o, &criteria, &s).known);
+  assert_true(gg_statistics_forecast_end(&o.forecast, &criteria, &s).known);
   c.trending = false, c.trusted = false, c.untrusted = 5;
   s.restarts = 0;
   gg_run_progress_record_errors(&o, 100, &c);
-  assert_true(gg_run_progress_end(&o, &criteria, &s).at >= 20 + 1.5 * 400); /* 16 blocks of 5 times */
-  gg_run_progress_open_window(&o);
-  assert_true(isnan(gg_run_progress_end(&o, &criteria, &s).at));
+  assert_true(gg_statistics_forecast_end(&o.forecast, &criteria, &s).at >= 20 + 1.5 * 400); /* 16 blocks of 5 times */
+  gg_statistics_forecast_open_window(&o.forecast);
+  assert_true(isnan(gg_statistics_forecast_end(&o.forecast, &criteria, &s).at));
 }
 
 /* The pace is the seconds per sample of late, not of the start; stored marks are thinned. */

@@ -71,6 +71,7 @@ static void begin(gg_replicas *all, gg_replica *replica)
 {
   *all = (gg_replicas){.n = 1, .model = couette(), .replica = replica, .state.averaging = 1, .state.due = ROWS};
   *replica = (gg_replica){.model = all->model};
+  replica->sampler.model = &replica->model;
   assert_int_equal(gg_statistics_series_init(&replica->series, (size_t)gg_measure_wall_modes(&all->model) + 1, NULL),
                    GG_OK);
 }
@@ -161,8 +162,8 @@ static void short_windows_where_a_drift_is_not_felt(void **state)
       double error;
       begin(&all, &replica);
       all.scene = gg_scene_defaults();
-      replica.n_observables = 1, replica.observable[0] = &observable;
-      replica.offset[0] = (size_t)gg_measure_wall_modes(&all.model);
+      replica.sampler.n_observables = 1, replica.sampler.observable[0] = &observable;
+      replica.sampler.offset[0] = (size_t)gg_measure_wall_modes(&all.model);
       plant(&r, MOMENTUM, ROWS / 5.0, 0, by_square[k], &replica);
       assert_int_equal(gg_run_replicas_error_by_square(&all, MOMENTUM, ROWS / 5.0, GG_Q_TEMPERATURE, &error, NULL),
                        GG_OK);

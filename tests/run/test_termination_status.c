@@ -51,7 +51,7 @@ static void shorter_than_the_shortest_window(void **state)
   gg_error err;
   gg_engine_ops ops = {.name = "md", .state = stand_still};
   gg_engine engine = {.ops = &ops};
-  gg_replica replica = {.engine = &engine, .n_observables = 1, .model = {.n = 100}};
+  gg_replica replica = {.engine = &engine, .sampler = {.n_observables = 1}, .model = {.n = 100}};
   gg_replicas all = {.n = 1, .replica = &replica, .model = {.n = 100}};
   all.criteria = (gg_stopping_criteria){.least = 100, .most = 90, .relative_error = 0.1};
   all.state.averaging = 1, all.state.window_at = 10, all.state.due = 109;

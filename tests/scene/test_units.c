@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "run/engine_grains.h"
+#include "common/engine_grains.h"
 #include "run/protocol_times.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
@@ -335,8 +335,8 @@ static void last_grains(const gg_scene *s, gg_model *m, gg_engine_grains *g)
   if (engine->ops->advance(engine, 6 / gg_common_model_collision_rate(m, m->temperature0), 2000, &elapsed, &err) !=
       GG_OK)
     fail_msg("%s, %s: %s", gg_flow_of(s->flow)->word, ops->name, err.message);
-  assert_int_equal(gg_run_engine_grains_make(g, (size_t)m->n, &err), GG_OK);
-  gg_run_engine_grains_read(engine, m, g);
+  assert_int_equal(gg_common_engine_grains_make(g, (size_t)m->n, &err), GG_OK);
+  gg_common_engine_grains_read(engine, m, g);
   engine->ops->destroy(engine);
 }
 
@@ -357,7 +357,7 @@ static void runs_agree_bit_for_bit(void **state)
       for (size_t k = 0; k < 3 * (size_t)a.n; k++)
         if (x.grains.c[k] * factor != y.grains.c[k])
           fail_msg("%s: %a and %a", mixtures[i], x.grains.c[k] * factor, y.grains.c[k]);
-      gg_run_engine_grains_clear(&x), gg_run_engine_grains_clear(&y);
+      gg_common_engine_grains_clear(&x), gg_common_engine_grains_clear(&y);
     }
 }
 

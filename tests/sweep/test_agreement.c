@@ -90,7 +90,7 @@ static void test_beyond_chance(void **state)
   for (int k = 0; k < 3; k++)
     for (unsigned short seed = 1; seed <= 10; seed++) {
       const gg_agreement a = judge(plans[k], seed);
-      assert_true(a.fails && a.row[0].fails && !a.row[1].fails && !a.row[2].fails);
+      assert_true(a.fails && a.row[0].scores.fails && !a.row[1].scores.fails && !a.row[2].scores.fails);
     }
 }
 

@@ -277,6 +277,21 @@ const parts = {
     assert.deepStrictEqual(spec.series.map((one) => [one.name, one.x, one.y]), [["ghost e = 0.8", [1, 2], [3, 4]], ["distance", [1, 30], [1e-12, 1e-3]]]);
     assert.deepStrictEqual([spec.title, spec.x.range, spec.y.range, spec.y.log, spec.y.label], ["Distance to the twin", [0, 30], [1e-17, 10], true, "distance (d)"]);
   },
+  "errors of means over their collisions, a line of slope -1/2, z": () => {
+    const history = new m.history.TemperatureHistory(false),
+      results = (stderr) => ({ temperature: { mean: 6, stderr } });
+    for (const [c, e] of [[100, 0.2], [105, 9], [400, 0.1]]) history.addError("md", c, results(e)); /* 105: less than a tenth more */
+    history.addError("dsmc", 100, results(null));
+    const means = { md: { results: results(0.1) }, dsmc: { results: results(0.02) }, theory: {}, comparison: [{ quantity: "temperature", md_dsmc_z: -1.26 }] },
+      spec = shown({ chart: "errors", gas: { about: aboutOf("usf"), history }, quantity: "temperature", means });
+    assert.deepStrictEqual(spec.series.map((one) => one.name), ["error md", "half"]);
+    near(spec.of("error md").x, [100, 400]);
+    near(spec.of("error md").y, [0.2, 0.1]);
+    near(spec.of("half").y, [0.2, 0.1]); /* exactly 2/sqrt(c) */
+    assert.deepStrictEqual([spec.x.log, spec.y.log, spec.title], [true, true, "Error of temperature T; z = −1.3"]);
+    const warm = { ...means, progress: { md: { averaging: 0, over: false }, dsmc: { averaging: 1, over: false } } };
+    assert.strictEqual(shown({ chart: "errors", gas: { about: aboutOf("usf"), history }, quantity: "temperature", means: warm }).title, "Error of temperature T");
+  },
   "between walls: T and the solid fraction over their means, where grains can be": () => {
     const curves = {
         profile_solid_fraction: { x: [0, 1, 2, 3], value: [0.01, 0.2, 0.4, null], stderr: [0, 0.02, null, 0] },
@@ -288,6 +303,8 @@ const parts = {
     near(spec.of("md profile_temperature").band, [0.1, 0.2]);
     near(spec.of("md profile_solid_fraction").y, [0.2 / 0.3, 0.4 / 0.3]);
     near(spec.of("dsmc profile_solid_fraction").error, [0.02 / 0.3, 0]);
+    for (const engine of ["md", "dsmc"]) assert.strictEqual(spec.of(`${engine} profile_temperature`).colour, spec.of(`${engine} profile_solid_fraction`).colour);
+    assert.strictEqual(spec.of("md profile_temperature").colour, m.colours.MD); /* a colour means an engine */
     assert.deepStrictEqual([spec.of("dsmc profile_temperature").points, spec.of("md profile_temperature").label, spec.of("md profile_solid_fraction").label, spec.x.label], [true, "grains: T", "grains: φ", "height y (d)"]);
   },
   "profiles beside the box lie on its own height": () => {
@@ -316,9 +333,13 @@ const parts = {
     assert.deepStrictEqual([titleOf(means, "grad"), titleOf(means, "lun1991")], ["Grad's moments †", "Lun 1991"]);
     m.state.store.look({ theories: ["zzz", "grad"], means });
     assert.deepStrictEqual(chosenTheories(names), ["grad", "zzz"]);
-    const looks = ["lun1991", "grad", "zzz"].map((name) => JSON.stringify(lineOf(name)));
-    assert.deepStrictEqual(looks, m.colours.LINES.slice(0, 3).map((one) => JSON.stringify(one)));
+    const looks = () => ["lun1991", "grad", "haff1983"].map((name) => m.colours.LINES.indexOf(lineOf(name)));
+    assert.deepStrictEqual(looks(), [3, 6, 1]);
+    assert.strictEqual(m.colours.LINES.indexOf(lineOf("zzz")), 0); /* the first line that no theory of this gas has */
     m.state.store.look({ theories: null, means: null });
+    assert.deepStrictEqual(looks(), [3, 6, 1]); /* also before theories have come */
+    const all = [...m.colours.CLASS, ...m.colours.LINES.map((one) => one.colour), m.colours.MD, m.colours.DSMC];
+    assert.strictEqual(new Set(all).size, all.length); /* a student, a theory and an engine share no colour */
   },
   "my points over the slider, beside the theories' lines and the points of a class": () => {
     const gas = { about: aboutOf("hcs", { collision: { e: 0.93, beta: -1, mu: "inf" } }) },

@@ -120,17 +120,32 @@ const parts = {
     const [other] = m.points.pointsOf("slider,value,seed,dsmc_N1_error,name,md_N2,dsmc_N1\r\ne,0.9,4,2,Eve,3,5\r\n", "x.csv");
     assert.deepStrictEqual(other, { slider: "e", x: 0.9, seed: "4", from: "Eve", md: { N2: [3, 0] }, dsmc: { N1: [5, 2] } });
   },
+  "a point waits for both engines, and not for one that has ended without a mean": () => {
+    const part = (stderr) => ({ results: { N1: { mean: 1, stderr } } }),
+      at = (md, dsmc) => ({ averaging: md, over: dsmc }),
+      can = (progress, md, dsmc, more = {}) => m.points.canKeep({ gas: {}, player: null, quantity: "N1", means: { progress, md: md && part(md), dsmc: dsmc && part(dsmc) }, ...more });
+    const both = { md: at(1, false), dsmc: at(1, false) },
+      warming = { md: at(0, false), dsmc: at(1, false) };
+    assert.strictEqual(can(both, 0.1, 0.2), true);
+    assert.strictEqual(can(both, null, 0.2), false);
+    assert.strictEqual(can(warming, 0.1, 0.2), false); /* md has numbers, but of its warm-up */
+    assert.strictEqual(can({ md: at(1, false) }, 0.1, null), true); /* dsmc was refused */
+    assert.strictEqual(can({ md: at(0, true), dsmc: at(1, false) }, null, 0.2), true); /* md ended without a mean */
+    assert.strictEqual(can({ md: at(0, true), dsmc: at(0, true) }, null, null), false);
+    assert.strictEqual(can(both, 0.1, 0.2, { player: {} }), false);
+    assert.strictEqual(m.points.canKeep({ gas: {}, player: null, quantity: "N1", means: null }), false);
+  },
   "theories over the slider: its keys and values, and what they answer": async () => {
     const { store } = m.state,
       requested = [];
-    m.worker_rpc.workers.measure = {
+    m.worker_rpc.workers.evaluate = {
       request: async (job, { sets }) => {
         requested.push([job, sets]);
         if (requested.length === 2) throw new Error("refused");
         return { theory: { grad: { N1: { mean: 100 + requested.length }, a2: { mean: 5 } } } };
       },
     };
-    store.state = { ...m.state.initial, gas: { scene: "s", sets: { phi: "0.2" }, about: { values: VALUES } }, slider: "e", means: { theory: {} } };
+    store.state = { ...m.state.initial, gas: { scene: "s", sets: { phi: "0.2" }, about: { values: VALUES } }, slider: "e", means: { theory: {}, evaluated: true } };
     await m.points.drawLines();
     assert.deepStrictEqual(requested.map(([job, sets]) => [job, sets["collision.e"], sets.phi]), [0.5, 0.5625, 0.625, 0.6875, 0.75, 0.8125, 0.875, 0.9375, 1].map((x) => ["theory", String(x), "0.2"]));
     const [[key, { x, theory }]] = Object.entries(store.state.lines);
@@ -207,7 +222,7 @@ const parts = {
   "colours: ends and middles of both scales": () => {
     const { colourAt, mapOf } = m.colours;
     assert.deepStrictEqual([-1, 0, 0.25, 0.5, 0.625, 1, 2].map((x) => colourAt(x)), [[76, 84, 232], [76, 84, 232], [146, 70, 205], [220, 84, 140], [235, 117, 107], [255, 238, 90], [255, 238, 90]]);
-    assert.deepStrictEqual([0, 0.5, 1].map((x) => colourAt(x, "sided")), [[40, 120, 235], [225, 228, 230], [235, 105, 20]]);
+    assert.deepStrictEqual([0, 0.5, 1].map((x) => colourAt(x, "sided")), [[170, 80, 215], [225, 228, 230], [40, 165, 75]]);
     assert.deepStrictEqual(["speed", "spin", "since", "along", "origin"].map(mapOf), ["rising", "rising", "rising", "sided", "sided"]);
   },
   "what is drawn of grains: scales of speeds, spins, times and sides; marks that turn": () => {

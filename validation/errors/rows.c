@@ -28,10 +28,11 @@ static const struct {
 static bool append(const gg_replica *r, gg_quantity q, double *y)
 {
   gg_function f;
-  if (gg_common_quantity_missing(&r->model, q) || !gg_measure_derived_find(r->observable[0]->rows->derived, q, &f))
+  if (gg_common_quantity_missing(&r->model, q) ||
+      !gg_measure_derived_find(r->sampler.observable[0]->rows->derived, q, &f))
     return false;
   for (size_t i = 0; i < r->series.n; i++)
-    y[i] = gg_function_value(f, gg_series_row(&r->series, i) + r->offset[0], &r->model);
+    y[i] = gg_function_value(f, gg_series_row(&r->series, i) + r->sampler.offset[0], &r->model);
   return true;
 }
 

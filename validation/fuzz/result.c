@@ -47,7 +47,7 @@ static void read_frames(const char *path)
   double edges[9];
   if (gg_files_stored_trajectory_open(&t, path, NULL) == GG_OK)
     for (size_t k = 0; k < t.n_frames && k < 10; k++)
-      if (gg_files_stored_trajectory_frame(&t, k, &frame, edges, NULL) == GG_OK) gg_run_frame_free(&frame);
+      if (gg_files_stored_trajectory_frame(&t, k, &frame, edges, NULL) == GG_OK) gg_measure_frame_free(&frame);
   gg_files_stored_trajectory_close(&t);
 }
 

@@ -5,12 +5,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/engine_grains.h"
 #include "corner.h"
 #include "md/grid.h"
 #include "md/md_allocate.h"
 #include "md/select_search.h"
 #include "md/start/start.h"
-#include "run/engine_grains.h"
 
 enum { MOST = 2000 };
 
@@ -85,12 +85,12 @@ void corner_compare_plain(const gg_scene *scene, finding *f)
   course *fast = calloc(2, sizeof *fast), *plain = fast ? fast + 1 : NULL;
   gg_engine_grains grains = {0};
   bool made = fast && gg_simulation_new(scene, NULL, &g, NULL) == GG_OK &&
-              gg_run_engine_grains_make(&grains, (size_t)g->model.n, NULL) == GG_OK;
+              gg_common_engine_grains_make(&grains, (size_t)g->model.n, NULL) == GG_OK;
   if (made) {
-    gg_run_engine_grains_read(g->engine, &g->model, &grains);
+    gg_common_engine_grains_read(g->engine, &g->model, &grains);
     made = make_reference(&g->model, g->scene.run.seed, &grains, &reference, NULL) == GG_OK;
   }
-  gg_run_engine_grains_clear(&grains);
+  gg_common_engine_grains_clear(&grains);
   if (!made) {
     gg_simulation_free(g);
     free(fast);

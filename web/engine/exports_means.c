@@ -40,11 +40,12 @@ PAGE char *page_session_json(gg_session *session)
   return text;
 }
 
-/* A comparison of the theories alone; sessions add their results. */
-PAGE gg_comparison *page_comparison(const gg_scene *scene)
+/* A comparison of a theory alone, of all with an empty name; sessions add their results. */
+PAGE gg_comparison *page_comparison(const gg_scene *scene, const char *theory)
 {
   gg_comparison *comparison = NULL;
-  return gg_theories_evaluate(scene, NULL, NULL, NULL, &comparison, &page_why) == GG_OK ? comparison : NULL;
+  const char *name = *theory ? theory : NULL;
+  return gg_theories_evaluate(scene, name, NULL, NULL, &comparison, &page_why) == GG_OK ? comparison : NULL;
 }
 PAGE void page_comparison_free(gg_comparison *comparison)
 {

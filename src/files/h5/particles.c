@@ -149,7 +149,7 @@ void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model,
   if (h->failed) return;
   const gg_frame part = stored_part(p, whole), *frame = &part;
   gg_error err = {.message = "out of memory for a frame"};
-  size_t *order = gg_run_frame_order(frame, &err);
+  size_t *order = gg_measure_frame_order(frame, &err);
   double *sorted = malloc(3 * frame->n * sizeof *sorted);
   if (!order || !sorted) {
     gg_h5_failed(h, err.message);

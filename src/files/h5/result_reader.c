@@ -210,7 +210,7 @@ void gg_files_stored_result_clear(gg_stored_result *s)
   free(s->date);
   free(s->scene);
   json_decref(s->document);
-  gg_run_frame_free(&s->last);
+  gg_measure_frame_free(&s->last);
   *s = (gg_stored_result){0};
 }
 
@@ -310,7 +310,7 @@ gg_status gg_files_stored_trajectory_frame(gg_stored_trajectory *t, size_t k, gg
   frame->velocity = read_vectors(t, GRAINS "/velocity/value", k);
   if (t->spin_unit) frame->spin = read_vectors(t, GRAINS "/spin/value", k);
   gg_status status = gg_h5_in_status(&t->h, t->path, err);
-  if (status != GG_OK) gg_run_frame_free(frame);
+  if (status != GG_OK) gg_measure_frame_free(frame);
   return status;
 }
 

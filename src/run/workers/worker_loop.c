@@ -10,6 +10,7 @@
 #include "run/run.h"
 #include "run/workers/message.h"
 #include "scene/model_of_scene.h"
+#include "theory/near_steady.h"
 
 /* Seconds between reports of what is under way, and checks whether rank 0 lives. */
 static const double status_every = 0.5;
@@ -65,7 +66,7 @@ static gg_status make_model(remote_run *r, const void *block, size_t size)
   GG_TRY(gg_scene_model_make(&r->scene, r->scene.engine, &r->model, &r->err));
   r->stop = (gg_stop){is_stopped, r};
   r->model.stop = &r->stop;
-  return r->scene.start.temperature == GG_AUTO ? gg_run_start_near_steady(&r->model, &r->err) : GG_OK;
+  return r->scene.start.temperature == GG_AUTO ? gg_theory_start_near_steady(&r->model, &r->err) : GG_OK;
 }
 
 static gg_status begin(worker_process *s, const gg_run_message *m, const void *block, size_t size, gg_error *err)

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Estimated time of a collision. */
+#include <math.h>
+
+#include "common/thermostat.h"
+#include "md/md_operations.h"
+
+/* Cells are as wide as the largest grain: how many more grains there are in one than of equal ones. */
+static double crowding(const gg_model *m)
+{
+  double cubes = 0;
+  for (int i = 0; i < m->n_species; i++) cubes += pow(m->diameter[i], 3) * (double)m->n_of[i] / (double)m->n;
+  return pow(gg_common_model_widest(m), 3) / cubes;
+}
+
+/* A kick is nearly a collision's work, in a thin gas less, and there are more the more energy is lost (md/kicks.h). */
+static double cost_of_kicks(const gg_model *m)
+{
+  const double slots = m->shear_rate != 0 ? 25 : 5, rate = gg_common_model_collision_rate(m, m->temperature0);
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
+  const double loss = mass * gg_common_thermostat_noise(m) / m->temperature0 / rate;
+  if (m->bath.drag[0] != 0) return 1 + fmax(fmin(8 * loss, 1), 0.4 * slots * fabs(m->bath.drag[0]) / rate);
+  return gg_common_is_kicked(m) ? 1 + fmin(7 * loss, 1.1) : 1;
+}
+
+/* The thinner the gas the more cells are crossed between two; out of cache beyond some
+ * thousand grains; walls are met, too, and parabolas cost more than straight lines. */
+double gg_md_nanoseconds(const gg_model *m)
+{
+  const double cells = 180 + 115 / sqrt(fmax(m->phi, 1e-12)), cache = 1 + 0.2 * fmax(0, log((double)m->n / 2000));
+  return cells * cache * crowding(m) * cost_of_kicks(m) * (m->walled ? 1.2 : 1);
+}
