@@ -11,11 +11,21 @@ gg_contact gg_common_contact_make(gg_partner one, gg_partner two, double e, doub
   return c;
 }
 
-void gg_common_contact_set_kicks(gg_contact *c, bool spins, double normal, double tangential)
+static const struct {
+  bool along_surfaces; /* it acts on the surfaces, whose mass is m_t, not on the centres alone */
+  bool turns;
+} kicks[GG_N_KICKS] = {[GG_NORMAL_KICK] = {false, false}, [GG_TANGENTIAL_KICK] = {true, true}};
+
+void gg_common_contact_set_kicks(gg_contact *c, bool spins, const double D[GG_N_KICKS])
 {
   if (!spins) c->ik1 = c->ik2 = 0;
-  c->kn = 2 * normal / gg_inverse_mr(c);
-  c->kt = 2 * tangential / gg_inverse_mt(c);
+  for (int k = 0; k < GG_N_KICKS; k++)
+    c->kick[k] = 2 * D[k] / (kicks[k].along_surfaces ? gg_inverse_mt(c) : gg_inverse_mr(c));
+}
+
+bool gg_common_kick_turns(gg_kick_kind kind)
+{
+  return kicks[kind].turns;
 }
 
 gg_rule gg_common_rule_select(double beta, double mu)

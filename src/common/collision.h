@@ -34,15 +34,19 @@ typedef enum gg_rule {
   GG_FRICTIONAL /* Coulomb: beta_0 while sticking, mu while sliding */
 } gg_rule;
 
+/* Kicks at contact: a kind is its value here, its row in collision.c, and its part of kicked_impulse_of and kick_energy
+ * in collision_of.h. */
+typedef enum gg_kick_kind { GG_NORMAL_KICK, GG_TANGENTIAL_KICK, GG_N_KICKS } gg_kick_kind;
+
 /* Coefficients of the collision rule for two partners of given kinds, made once by gg_common_contact_make. Units:
  * mass. */
 typedef struct gg_contact {
-  double jn;       /* m_r (1+e) */
-  double jt;       /* m_t (1+beta); 0 if smooth */
-  double mu;       /* friction coefficient; INFINITY: constant beta */
-  double im1, im2; /* 1/m_i */
-  double ik1, ik2; /* 1/(K_i m_i) */
-  double kn, kt;   /* kicks: 2 m_r D, 2 m_t D_t; 0: none */
+  double jn;               /* m_r (1+e) */
+  double jt;               /* m_t (1+beta); 0 if smooth */
+  double mu;               /* friction coefficient; INFINITY: constant beta */
+  double im1, im2;         /* 1/m_i */
+  double ik1, ik2;         /* 1/(K_i m_i) */
+  double kick[GG_N_KICKS]; /* 2 m D, with m_r or m_t by the kind; 0: none */
 } gg_contact;
 
 /* One partner; a wall is {INFINITY, any}. */
@@ -52,8 +56,11 @@ typedef struct gg_partner {
 
 gg_contact gg_common_contact_make(gg_partner one, gg_partner two, double e, double beta, double mu);
 
-/* Set the kicks of a contact, D and D_t above. Grains without spins have no inertia of rotation: m_t is m_r. */
-void gg_common_contact_set_kicks(gg_contact *contact, bool spins, double normal, double tangential);
+/* Set the kicks of a contact, velocities such as D and D_t above, by kind. Grains without spins have no inertia of
+ * rotation: m_t is m_r. */
+void gg_common_contact_set_kicks(gg_contact *contact, bool spins, const double D[GG_N_KICKS]);
+/* True if kicks of this kind single out the z axis, which then is the mean direction of spins. */
+bool gg_common_kick_turns(gg_kick_kind kind);
 
 /* The simplest rule that does for these coefficients. */
 gg_rule gg_common_rule_select(double beta, double mu);

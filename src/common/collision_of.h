@@ -38,13 +38,21 @@ GG_INLINE GG_VECTOR GG_OF(impulse)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR 
   return GG_OF(impulse_of)(rule, c, k, g, gn, c->jn * gn);
 }
 
+/* Normal part of the impulse of kicks. */
+GG_INLINE GG_NUMBER GG_OF(normal_kick)(const GG_CONTACT *c, GG_VECTOR k)
+{
+  (void)k; /* no kick depends on the direction */
+  return GG_ALL(c->kick[GG_NORMAL_KICK]);
+}
+
 /* The impulse with the kicks of the contact, from the part Jn without them. */
 GG_INLINE GG_VECTOR GG_OF(kicked_impulse_of)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn,
                                              GG_NUMBER Jn)
 {
-  GG_VECTOR J = GG_OF(impulse_of)(rule, c, k, g, gn, Jn + GG_ALL(c->kn));
-  J.x = J.x - GG_ALL(c->kt) * k.y;
-  J.y = J.y + GG_ALL(c->kt) * k.x;
+  GG_VECTOR J = GG_OF(impulse_of)(rule, c, k, g, gn, Jn + GG_OF(normal_kick)(c, k));
+  const GG_NUMBER kt = GG_ALL(c->kick[GG_TANGENTIAL_KICK]);
+  J.x = J.x - kt * k.y;
+  J.y = J.y + kt * k.x;
   return J;
 }
 GG_INLINE GG_VECTOR GG_OF(kicked_impulse)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn)
@@ -56,8 +64,8 @@ GG_INLINE GG_VECTOR GG_OF(kicked_impulse)(gg_rule rule, const GG_CONTACT *c, GG_
 GG_INLINE GG_NUMBER GG_OF(kick_energy)(const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn, GG_VECTOR J,
                                        GG_NUMBER Jn)
 {
-  GG_NUMBER kn = GG_ALL(c->kn), kt = GG_ALL(c->kt), imr = GG_ALL(c->im1) + GG_ALL(c->im2),
-            imt = imr + (GG_ALL(c->ik1) + GG_ALL(c->ik2));
+  GG_NUMBER kn = GG_OF(normal_kick)(c, k), kt = GG_ALL(c->kick[GG_TANGENTIAL_KICK]),
+            imr = GG_ALL(c->im1) + GG_ALL(c->im2), imt = imr + (GG_ALL(c->ik1) + GG_ALL(c->ik2));
   GG_NUMBER along_J = k.x * J.y - k.y * J.x, along_g = k.x * g.y - k.y * g.x, square = k.x * k.x + k.y * k.y;
   return kn * (imr * (Jn - 0.5 * kn) - gn) + kt * (imt * (along_J - 0.5 * kt * square) - along_g);
 }

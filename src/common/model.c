@@ -48,7 +48,9 @@ static double chi_slope_of(const gg_model *m)
 
 static void set_kicks(const gg_model *m, int o, gg_contact *contact)
 {
-  if (m->kicks) gg_common_contact_set_kicks(contact, m->rule != GG_SMOOTH, m->normal_kick[o], m->tangential_kick[o]);
+  double D[GG_N_KICKS];
+  for (int k = 0; k < GG_N_KICKS; k++) D[k] = m->kick[k][o];
+  if (m->kicks) gg_common_contact_set_kicks(contact, m->rule != GG_SMOOTH, D);
 }
 
 static void set_restitution(gg_model *m, int i, int j, double e)
@@ -97,19 +99,27 @@ void gg_common_model_at(gg_model *m, double T)
     }
 }
 
+/* True if some pair has a kick that singles out the z axis. */
+static bool has_turning_kicks(const gg_model *m)
+{
+  bool turned = false;
+  for (int k = 0; k < GG_N_KICKS; k++)
+    for (int o = 0; o < gg_pairs_of(m->n_species); o++)
+      turned |= gg_common_kick_turns((gg_kick_kind)k) && m->kick[k][o] != 0;
+  return turned;
+}
+
 bool gg_common_model_is_turned(const gg_model *m)
 {
-  bool turned = m->bath.turns;
-  for (int o = 0; o < gg_pairs_of(m->n_species); o++) turned |= m->tangential_kick[o] != 0;
-  return turned;
+  return m->turns || has_turning_kicks(m);
 }
 
 /* Spins of rough grains take up tangential kicks until friction cancels these, and no energy comes in; with Coulomb
  * friction they may grow for ever. Normal kicks or another source of energy keep the gas warm. */
 static bool kicks_fade(const gg_model *m)
 {
-  bool fade = m->kicks && m->rule != GG_SMOOTH && m->shear_rate == 0 && !m->walled && !m->bath.on;
-  for (int o = 0; o < gg_pairs_of(m->n_species); o++) fade &= m->normal_kick[o] == 0;
+  bool fade = m->kicks && m->rule != GG_SMOOTH && m->shear_rate == 0 && !m->walled && !m->bath.on && !m->turns;
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++) fade &= m->kick[GG_NORMAL_KICK][o] == 0;
   return fade;
 }
 
@@ -137,7 +147,7 @@ bool gg_common_model_balances(const gg_model *m)
 {
   bool loses = walls_lose(m) || m->bath.drag[0] > 0, held = true;
   for (int i = 0; i < m->n_species; i++) {
-    held &= m->bath.torque[i] == 0 || is_held(m, i);
+    held &= m->torque[i] == 0 || is_held(m, i);
     for (int j = 0; j < m->n_species; j++) loses |= gg_common_pair_loses(m, i, j);
   }
   return held && !kicks_fade(m) && (loses || !(gg_flow_is_sheared(m->flow) || gg_model_is_injected(m)));
@@ -171,7 +181,8 @@ void gg_common_model_set_pairs(gg_model *m)
   for (int o = 0; o < gg_pairs_of(m->n_species); o++) {
     m->rule = later_rule(m->rule, gg_model_pair_rule(m, o));
     if (m->by_speed.at[GG_OF_E][o]) m->elastic = false;
-    if (m->normal_kick[o] != 0 || m->tangential_kick[o] != 0) m->kicks = true, m->elastic = false;
+    for (int k = 0; k < GG_N_KICKS; k++)
+      if (m->kick[k][o] != 0) m->kicks = true, m->elastic = false;
   }
   m->chi_slope = chi_slope_of(m);
   for (int i = 0; i < m->n_species; i++)
@@ -246,7 +257,7 @@ void gg_common_model_set_start(gg_model *m, double temperature)
   /* With a restitution law, temperature and mean impact speed depend on each other. */
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = guess_unbathed_temperature(m);
-    if (m->bath.on || (m->kicks && !m->walled))
+    if (m->bath.on || ((m->kicks || m->turns) && !m->walled))
       m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
     if (temperature != GG_AUTO) m->temperature0 = temperature;
     gg_common_model_at(m, m->temperature0);

@@ -26,12 +26,10 @@
 #include "common/surface/surface.h"
 
 /* Drag and noise on every grain between collisions, relative to the imposed flow, by species (thermostat.h):
- *   dC = -drag C dt + sqrt(noise) dW,   ds = -spin_drag (s - rolling) dt + torque z dt + sqrt(spin_noise) dW. */
+ *   dC = -drag C dt + sqrt(noise) dW,   ds = -spin_drag (s - rolling) dt + sqrt(spin_noise) dW. */
 typedef struct gg_bath {
   bool on;
   double drag[GG_MAX_SPECIES], noise[GG_MAX_SPECIES], spin_drag[GG_MAX_SPECIES], spin_noise[GG_MAX_SPECIES];
-  bool turns;                    /* some species has a torque */
-  double torque[GG_MAX_SPECIES]; /* constant, about z: over moment of inertia and radius, an acceleration of s */
 } gg_bath;
 
 /* The units of the model in those of the scene. */
@@ -80,6 +78,8 @@ typedef struct gg_model {
   double shear_rate;     /* 1 if sheared, until it changes on the way, also to 0 or below; else 0 */
   double gravity[3];
   gg_bath bath;
+  bool turns;                    /* some species has a torque */
+  double torque[GG_MAX_SPECIES]; /* constant, about z: over moment of inertia and radius, an acceleration of s */
 
   gg_contact contact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* grain 1 of the first species, grain 2 of the second */
   gg_contact treated[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* for the contact-time rule: e = 1, see gg_common_treated_beta */
@@ -89,8 +89,8 @@ typedef struct gg_model {
   double chi_slope;               /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
   gg_contact_value contact_value; /* which chi is, for other densities than phi */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
-  double normal_kick[GG_PAIRS], tangential_kick[GG_PAIRS]; /* D and D_t of common/collision.h */
-  bool kicks;                                              /* some pair has a kick */
+  double kick[GG_N_KICKS][GG_PAIRS]; /* D and D_t of common/collision.h */
+  bool kicks;                        /* some pair has a kick */
   /* Law of restitution between grains (name NULL: none), or formulas and tables by_speed of e, beta and mu, whose name
    * is "e(v)". With one, `e`, `beta`, `mu` and `contact` are those at the mean impact speed of some temperature
    * (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */
@@ -150,7 +150,7 @@ static inline bool gg_model_has_speed(const gg_model *m)
 /* Do kicks at contact, torques, or an e above 1 at some speed give energy? */
 static inline bool gg_model_is_injected(const gg_model *m)
 {
-  return m->kicks || m->bath.turns || m->by_speed.gains;
+  return m->kicks || m->turns || m->by_speed.gains;
 }
 
 /* The collision rule of a pair of species at all speeds. */

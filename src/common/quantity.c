@@ -186,7 +186,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
   const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
   const bool fluctuates = rests && !m->homogeneous;
-  const bool noisy = m->bath.on || m->kicks || gg_common_heat_of(m) == GG_HEAT_KICKS;
+  const bool noisy = m->bath.on || m->kicks || m->turns || gg_common_heat_of(m) == GG_HEAT_KICKS;
   const bool turned = gg_common_model_is_turned(m), sheared = gg_model_is_sheared(m);
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
@@ -200,8 +200,8 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
        "without shear, torque, tangential kicks or start.spin there is no mean spin"},
       {GG_NEEDS_MEAN_SPIN, m->boltzmann,
        "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},
-      {GG_NEEDS_LAG, !m->bath.turns, "without a torque spins roll with the flow; see graingas theory"},
-      {GG_NEEDS_LAG, m->tangential_kick[0] != 0, "kicks along the surfaces have a stress of their own"},
+      {GG_NEEDS_LAG, !m->turns, "without a torque spins roll with the flow; see graingas theory"},
+      {GG_NEEDS_LAG, m->kick[GG_TANGENTIAL_KICK][0] != 0, "kicks along the surfaces have a stress of their own"},
       {GG_NEEDS_LAG, m->n_species > 1, "measured in one species"},
       {GG_NEEDS_TRANSFER, m->boltzmann, "no collisional transfer in the Boltzmann limit"},
       {GG_NEEDS_VOLUME, m->boltzmann, "an ideal gas in the Boltzmann limit: Z = 1 by definition"},

@@ -72,16 +72,18 @@ static injection injection_of(const gg_model *m)
   static const double friction = 0.3; /* of a spin, per collision */
   injection in = {.rate = gg_common_model_collision_rate(m, 1)};
   for (int i = 0; i < m->n_species; i++) {
-    const double torque = m->bath.torque[i], Km = m->inertia[i] * m->mass[i];
+    const double torque = m->torque[i], Km = m->inertia[i] * m->mass[i];
     in.torque = fmax(in.torque, Km * fabs(torque));
     in.turning += m->fraction[i] * Km * torque * torque / (friction * in.rate);
     for (int j = 0; j < m->n_species; j++) {
       const int o = gg_pair(i, j);
-      const double mr = 1 / gg_inverse_mr(&m->contact[i][j]), D = m->normal_kick[o], Dt = m->tangential_kick[o];
+      const double mr = 1 / gg_inverse_mr(&m->contact[i][j]);
       const double part = 0.5 * m->fraction[i] * m->fraction[j];
-      in.D = fmax(in.D, fmax(D, fabs(Dt)));
-      in.steady += part * 2 * mr * (D * D + Dt * Dt);
-      in.speedy += part * 2 * mr * D * m->e[o] * sqrt(M_PI / (2 * mr));
+      for (int k = 0; k < GG_N_KICKS; k++) {
+        in.D = fmax(in.D, fabs(m->kick[k][o]));
+        in.steady += part * 2 * mr * m->kick[k][o] * m->kick[k][o];
+      }
+      in.speedy += part * 2 * mr * m->kick[GG_NORMAL_KICK][o] * m->e[o] * sqrt(M_PI / (2 * mr));
     }
   }
   return in;

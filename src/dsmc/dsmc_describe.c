@@ -32,7 +32,7 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
       break;
     }
   if (m->kicks) line(context, "kicks at every contact between grains");
-  if (m->bath.turns) line(context, "torques act in the middle of each step");
+  if (m->turns) line(context, "torques act in the middle of each step");
   line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, neither is computed"
                              : "Enskog: contact value and collisional stress");
   if (m->shear_rate == 0)

@@ -24,7 +24,7 @@ enum { WORK_OF_A_STEP = 32 };
 /* Work of the present step: its candidates, and all grains that a thermostat heats. */
 static uint64_t work_of_step(const gg_dsmc *d, uint64_t candidates_before)
 {
-  const uint64_t heated = d->heat != GG_UNHEATED ? (uint64_t)d->model.n : 0;
+  const uint64_t heated = d->heat != GG_UNHEATED || d->model.turns ? (uint64_t)d->model.n : 0;
   return WORK_OF_A_STEP + (d->now.candidates - candidates_before) + heated;
 }
 
@@ -250,7 +250,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
   const bool next_sweep = d->model.linear_response; /* of the reduced shear rate; the clock continues */
-  if (d->heat != GG_UNHEATED && !next_sweep)
+  if ((d->heat != GG_UNHEATED || d->model.turns) && !next_sweep)
     return gg_base_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
   if (d->model.shear_rate != 0 && !next_sweep)
     return gg_base_fail(err, GG_BAD_INPUT, "a sheared gas cannot be rescaled: its shear rate sets the unit of time");

@@ -148,7 +148,7 @@ void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_ds
 {
   const gg_bath *b = &m->bath;
   const double rate = m->shear_rate;
-  kicking w = {.e = e, .strain = step->strain, .lanes = lanes, .spins = b->spin_drag[0] > 0 || b->turns};
+  kicking w = {.e = e, .strain = step->strain, .lanes = lanes, .spins = b->spin_drag[0] > 0 || m->turns};
   for (int i = 0; i < e->n_species; i++) {
     const gg_relaxation r = gg_common_relaxation(b->drag[i], step->dt),
                         s = gg_common_relaxation(b->spin_drag[i], step->dt);
@@ -161,7 +161,7 @@ void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_ds
     w.spin[i] = (gg_dsmc_kick_map){.factor = s.decay,
                                    .size = sqrt(b->spin_noise[i] * s.spread),
                                    .widening = 1,
-                                   .drift = {.z = (1 - s.decay) * gg_model_rolling(m, i) + b->torque[i] * turned}};
+                                   .drift = {.z = (1 - s.decay) * gg_model_rolling(m, i) + m->torque[i] * turned}};
   }
   kick(&w);
   *centre = velocity_of_centre(&w);

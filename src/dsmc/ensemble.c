@@ -93,6 +93,33 @@ static void heat_segment(void *context, int part)
   }
 }
 
+typedef struct turning {
+  gg_dsmc_ensemble *e;
+  const double *acceleration;
+  double dt;
+} turning;
+
+static void turn_segment(void *context, int part)
+{
+  const turning *w = context;
+  const int segment = gg_dsmc_segment_in(w->e->segments, w->e->grouping, part);
+  for (int i = 0; i < w->e->n_species; i++) {
+    const gg_dsmc_population *p = &w->e->of[i];
+    const gg_dsmc_range r = gg_dsmc_segment(p, w->e->segments, segment);
+    const size_t all = (size_t)p->n, end = (r.first + r.n) * GG_DSMC_LANES;
+    for (size_t a = r.first * GG_DSMC_LANES; p->s && a < (end < all ? end : all); a++) {
+      gg_vec s = gg_dsmc_block_get(p, p->s, (uint32_t)a);
+      s.z += w->acceleration[i] * w->dt;
+      gg_dsmc_block_set(p, p->s, (uint32_t)a, s);
+    }
+  }
+}
+
+void gg_dsmc_ensemble_turn(gg_dsmc_ensemble *e, const double acceleration[], double dt)
+{
+  gg_base_thread_pool_for(e->pool, e->segments, turn_segment, &(turning){e, acceleration, dt});
+}
+
 void gg_dsmc_ensemble_heat(gg_dsmc_ensemble *e, double factor)
 {
   gg_base_thread_pool_for(e->pool, e->segments, heat_segment, &(scaling){e, factor});

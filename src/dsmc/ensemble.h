@@ -53,6 +53,8 @@ gg_dsmc_moments gg_dsmc_ensemble_synchronise(gg_dsmc_ensemble *e, double strain,
 void gg_dsmc_ensemble_strain_bounds(gg_dsmc_ensemble *e, double strain, double width);
 /* Multiply every velocity by a factor. */
 void gg_dsmc_ensemble_heat(gg_dsmc_ensemble *e, double factor);
+/* Apply the torque of each species, an acceleration of surface velocities, over a time. */
+void gg_dsmc_ensemble_turn(gg_dsmc_ensemble *e, const double acceleration[], double dt);
 /* Multiply every velocity and spin by a factor. */
 void gg_dsmc_ensemble_scale(gg_dsmc_ensemble *e, double factor);
 /* ensemble_store.c: save to a checkpoint, and restore from one with validation. */

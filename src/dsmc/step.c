@@ -33,6 +33,7 @@ static void heat(gg_dsmc *d, double dt, double strain, double half)
     d->now.lost = -gg_dsmc_thermostat_return(&d->ensemble, strain, kept_by_centres(d), d->now.lost, half);
     return;
   }
+  if (d->heat == GG_UNHEATED) return;
   gg_dsmc_rng_lanes *lanes = d->schedule ? d->schedule->lanes : &d->now.lanes;
   if (d->heat == GG_HEAT_BATHES) {
     const gg_dsmc_bath_step step = {d->now.strain, strain, dt};
@@ -47,7 +48,7 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
 {
   d->interval_begin = d->now.time;
   /* Symmetric splitting: the second half mirrors the first. */
-  if (d->heat == GG_UNHEATED) {
+  if (d->heat == GG_UNHEATED && !d->model.turns) {
     gg_dsmc_collide(d, dt, strain, span, d->model.n_species == 1 ? GG_DSMC_FORWARD : GG_DSMC_SYMMETRIC);
     d->now.lost = 0; /* without a thermostat it would only grow, or change by units */
     return;
@@ -55,6 +56,7 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   double lost = d->now.lost;
   gg_dsmc_collide(d, 0.5 * dt, strain, 0.5 * span, GG_DSMC_FORWARD);
   heat(d, dt, strain + 0.5 * span, d->now.lost - lost);
+  if (d->model.turns && d->heat != GG_HEAT_BATHES) gg_dsmc_ensemble_turn(&d->ensemble, d->model.torque, dt);
   d->interval_begin += 0.5 * dt;
   gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
 }

@@ -50,9 +50,9 @@ static double alternation_of(const gg_model *m, double free_time)
 {
   const double loss = loss_of(m), drag = drag_of(m, free_time);
   const double sheared = m->shear_rate != 0 ? bias_of_sheared_drag * drag * drag : 0;
-  const double bath = bias_of_drag * loss * drag + sheared + (m->bath.turns ? bias_of_torque : 0);
+  const double bath = bias_of_drag * loss * drag + sheared + (m->turns ? bias_of_torque : 0);
   if (m->n_species > 1) return bias_of_alternation + bath;
-  if (m->bath.on) return bias_of_thermostat * loss * loss + bath;
+  if (m->bath.on || m->turns) return bias_of_thermostat * loss * loss + bath;
   return gg_common_heat_of(m) != GG_UNHEATED ? bias_of_thermostat * loss * loss : 0;
 }
 
@@ -60,20 +60,21 @@ static double alternation_of(const gg_model *m, double free_time)
 static double split_of(const gg_model *m, double free_time)
 {
   const double strain = m->shear_rate * free_time;
-  return bias_of_splitting + (m->bath.on ? bias_of_sheared_bath * strain * strain + alternation_of(m, free_time) : 0);
+  return bias_of_splitting +
+         (m->bath.on || m->turns ? bias_of_sheared_bath * strain * strain + alternation_of(m, free_time) : 0);
 }
 
 /* Longest time of an alternation, in mean free times. */
 static double alternate_every(const gg_model *m, double free_time)
 {
   const double bias = alternation_of(m, free_time);
-  const double error = m->asked_error > 0 ? m->asked_error : m->bath.on ? usual_error : 0;
+  const double error = m->asked_error > 0 ? m->asked_error : m->bath.on || m->turns ? usual_error : 0;
   return error > 0 && bias > 0 ? smaller(0.25, sqrt(fraction * error / bias)) : 0.25;
 }
 
 gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
 {
-  bool heated = gg_common_heat_of(model) != GG_UNHEATED;
+  bool heated = gg_common_heat_of(model) != GG_UNHEATED || model->turns;
   double free_time = 1 / gg_common_model_collision_rate(model, T);
   gg_dsmc_time_step step = {.synchronise = heated ? free_time : 3 * free_time,
                             .length = heated ? alternate_every(model, free_time) * free_time : free_time};

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "common/surface/shapes.h"
+#include "md/epoch.h"
 #include "md/md_thermostat.h"
 #include "md/resolution.h"
 
@@ -17,15 +18,15 @@ static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_recor
   m->species[which] = gg_md_species_of(g);
   m->c[which] = gg_scale(e->k.scale, c);
   m->height[which] = height;
-  if (e->spin && e->model.walled) m->s[which] = e->spin[i];
+  if (e->spin && e->model.walled) m->s[which] = gg_md_spin(e, i);
   m->since[which] = (e->k.now - e->last[i]) / e->k.scale; /* with the present scale of a Gaussian thermostat */
 }
 
 static void show_spin_changes(const gg_md *e, uint32_t i, uint32_t j, gg_collision_record *m)
 {
   if (!e->spin || !e->model.walled) return;
-  m->turn[0] = gg_sub(e->spin[i], m->s[0]);
-  if (j != i) m->turn[1] = gg_sub(e->spin[j], m->s[1]);
+  m->turn[0] = gg_sub(gg_md_spin(e, i), m->s[0]);
+  if (j != i) m->turn[1] = gg_sub(gg_md_spin(e, j), m->s[1]);
 }
 
 void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)

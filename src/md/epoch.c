@@ -47,8 +47,8 @@ static void move_skins(gg_md *e, double span)
 
 void gg_md_turn_spins(gg_md *e, double span)
 {
-  if (!e->model.bath.turns) return;
-  for (uint32_t i = 0; i < e->n; i++) e->spin[i].z += e->model.bath.torque[gg_md_species_of(&e->grain[i])] * span;
+  if (!e->model.turns) return;
+  for (uint32_t i = 0; i < e->n; i++) e->spin[i].z += e->model.torque[gg_md_species_of(&e->grain[i])] * span;
 }
 
 bool gg_md_next_epoch(gg_md *e)

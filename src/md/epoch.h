@@ -11,7 +11,14 @@ bool gg_md_next_epoch(gg_md *e);
 /* Surface velocity that the torque of a species has added since the start of the epoch: spins are stored without it. */
 GG_INLINE double gg_md_turned(const gg_md *e, int species)
 {
-  return e->model.bath.torque[species] * e->k.now;
+  return e->model.torque[species] * e->k.now;
+}
+/* Spin of a grain at the present time. */
+GG_INLINE gg_vec gg_md_spin(const gg_md *e, uint32_t i)
+{
+  gg_vec s = e->spin[i];
+  if (e->model.turns) s.z += gg_md_turned(e, gg_md_species_of(&e->grain[i]));
+  return s;
 }
 /* Add it to the stored spins, when times are re-zeroed after this span. */
 void gg_md_turn_spins(gg_md *e, double span);

@@ -241,7 +241,7 @@ static void relax(gg_md *e, const gg_md_kick_schedule *t, uint32_t i)
   g->v = gg_scale(t->keep, g->v);
   g->v.x += (1 - t->keep) * flow;
   if (!e->spin) return;
-  const double turned = gg_md_turned(e, (int)g->species);
+  const double turned = gg_md_turned(e, gg_md_species_of(g));
   e->spin[i].z += turned;
   e->spin[i] = gg_scale(t->spin_keep, e->spin[i]);
   e->spin[i].z += (1 - t->spin_keep) * gg_model_rolling(&e->model, (int)g->species) - turned;

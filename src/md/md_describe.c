@@ -95,7 +95,7 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   describe(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");
   if (m->law.name) describe(line, context, "restitution", "from the speed of each collision");
   if (m->kicks) describe(line, context, "kicks", "at every contact between grains");
-  if (m->bath.turns) describe(line, context, "torque", "exact between collisions");
+  if (m->turns) describe(line, context, "torque", "exact between collisions");
   snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time, gg_common_model_contact_unit(m));
   describe(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   describe_search(m, line, context);

@@ -303,7 +303,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
   if (e->model.linear_response) return begin_sweep(e, power, err);
-  if (gg_model_is_sheared(&e->model) || e->model.walled || e->heat != GG_UNHEATED)
+  if (gg_model_is_sheared(&e->model) || e->model.walled || e->heat != GG_UNHEATED || e->model.turns)
     return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);
   e->k.power += power;

@@ -26,12 +26,12 @@ static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, 
     const gg_md_image image = gg_md_image_after(e, e->image[i], was, r);
     out->image[0][slot] = image.x, out->image[1][slot] = image.y, out->image[2][slot] = image.z;
   }
+  const gg_vec none = {0, 0, 0}, s = e->spin ? gg_md_spin(e, i) : none;
   for (int a = 0; a < 3; a++) {
     out->r[a][slot] = gg_along(&r, a);
     out->c[a][slot] = gg_along(&c, a);
-    if (e->spin) out->s[a][slot] = gg_along(&e->spin[i], a);
+    out->s[a][slot] = gg_along(&s, a);
   }
-  if (e->model.bath.turns) out->s[2][slot] += gg_md_turned(e, gg_md_species_of(g));
   out->species[slot] = (uint8_t)gg_md_species_of(g);
   out->id[slot] = e->id[i];
 }

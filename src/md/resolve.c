@@ -52,7 +52,7 @@ void gg_md_select_resolution(gg_md *e)
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, sums = e->k.keeps_sums;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  e->resolve = gg_model_has_speed(&e->model) || e->model.bath.turns
+  e->resolve = gg_model_has_speed(&e->model) || e->model.turns
                    ? own_resolutions[rule]
                    : resolutions[rule][timed][sums][mixture][e->heat == GG_HEAT_SCALES];
   e->resolve_parted = e->resolve;

@@ -88,7 +88,7 @@ GG_INLINE gg_contact gg_md_own_contact(gg_md *e, const gg_contact *contact, bool
   gg_contact at = *contact;
   const gg_restitution_law *law = &e->model.law;
   const double inside = ldexp(1 / e->k.scale, e->k.power);
-  at.kn *= inside, at.kt *= inside;
+  for (int k = 0; k < GG_N_KICKS; k++) at.kick[k] *= inside;
   if (!law->name || treated) return at;
   const int pair = gg_pair(a, b);
   const double speed = ldexp(gn * e->k.scale, -e->k.power), u = law->e ? 0 : e->tables->scale[pair] * speed;
@@ -155,9 +155,10 @@ GG_INLINE void gg_md_resolve_surface(gg_md *e, gg_md_resolve_features f, uint32_
   if (treated) contact = &surface->treated[a];
   double overlap = -gg_surface_clearance(surface, &one->r, 0.5 * e->model.diameter[a]);
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
-  gg_vec k = gg_surface_normal(surface, &one->r), none = {0, 0, 0};
-  gg_surface_hit hit =
-      gg_surface_collide(f.rule, surface, contact, &e->k.rng, k, &one->v, f.spins ? &e->spin[i] : &none);
+  gg_vec k = gg_surface_normal(surface, &one->r), spin = {0, 0, 0};
+  if (f.spins) spin = gg_md_spin(e, i);
+  gg_surface_hit hit = gg_surface_collide(f.rule, surface, contact, &e->k.rng, k, &one->v, &spin);
+  if (f.spins) e->spin[i] = spin, e->spin[i].z -= e->model.turns ? gg_md_turned(e, a) : 0;
   e->k.wall_treated += treated && !hit.thermal;
   double least = gg_md_least_speed(e, f.contact_time, gg_dot(k, e->gravity)), towards = gg_dot(k, one->v);
   if (!hit.thermal && -towards < least) {

@@ -11,7 +11,7 @@
  *
  * This conserves momentum and energy exactly at every height. With F the flux of energy along y, in the
  * laboratory,
- *   dF/dy = rho g.u - loss,
+ *   dF/dy = rho g.u + the power of torques - loss,
  * and means over two slabs differ by the integral of the right-hand side, weighted by a hat: 1 at the face between
  * them, 0 at their far ends. Each slab keeps the sources with that weight, so the remainder is noise and the change
  * of the energy in time, at any thickness of slabs. */
@@ -45,6 +45,7 @@ typedef struct passed {
 typedef struct slab {
   carried flow, spin;
   passed by;
+  double power[2]; /* of torques, with h^p */
 } slab;
 
 /* Stored after the slabs: the time of their collisions; and that of the heat of the walls, which the sums of an
@@ -232,6 +233,8 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
     if (!s->s[0]) continue;
     const double omega[3] = {gg_snapshot_omega(s, 0, g), gg_snapshot_omega(s, 1, g), gg_snapshot_omega(s, 2, g)};
     add_carried(&slabs[i].spin, gg_moment_of_inertia(m, k), y - i - 0.5, omega, v[1]);
+    const double power = m->torque[k] / gg_model_radius(m, k) * gg_moment_of_inertia(m, k) * omega[2];
+    slabs[i].power[0] += power, slabs[i].power[1] += power * (y - i - 0.5);
   }
 }
 
@@ -345,7 +348,8 @@ static profile profile_of(const fluxes *d, const slab *slabs, int i)
   return p;
 }
 
-/* Sources of a slab, weighted with the part of the hat that is 1 at its upper or lower face: power of gravity, loss. */
+/* Sources of a slab, weighted with the part of the hat that is 1 at its upper or lower face: power of gravity and
+ * torques, loss. */
 static void add_sources(const fluxes *d, const slab *slabs, int i, bool upper, double *power, double *loss)
 {
   const slab *at = &slabs[i];
@@ -353,6 +357,7 @@ static void add_sources(const fluxes *d, const slab *slabs, int i, bool upper, d
   const double unit = d->model->stress_unit / volume, sign = upper ? 1 : -1;
   for (int b = 0; b < 3; b++)
     *power += unit * d->model->gravity[b] * (0.5 * at->flow.w[0][b] + sign * at->flow.w[1][b]);
+  *power += unit * (0.5 * at->power[0] + sign * at->power[1]);
   *loss += unit / time * (0.5 * at->by.loss[0] + sign * at->by.loss[1]);
 }
 

@@ -30,8 +30,9 @@ typedef struct rheology {
   gg_velocity_moments moments[GG_MAX_SPECIES];
   bool quick;
   memory memory;
-  double energy, momentum[2],
-      shear_stress; /* of this sample's grains in the laboratory, if moments are about a local flow; sum of m c_x c_y */
+  double energy, momentum[2], torque_power,
+      shear_stress; /* of this sample's grains in the laboratory, if moments are about a local flow: the power of
+                       torques, the sum of m c_x c_y */
   gg_long_waves waves;
   gg_species_scratch scratch;
 } rheology;
@@ -64,7 +65,7 @@ static void begin(void *self)
   rheology *r = self;
   r->waves = (gg_long_waves){0};
   const double T = r->memory.last_temperature;
-  r->energy = r->momentum[0] = r->momentum[1] = r->shear_stress = 0;
+  r->energy = r->momentum[0] = r->momentum[1] = r->torque_power = r->shear_stress = 0;
   r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities are well within the range of single precision */
   for (int i = 0; i < r->model->n_species; i++) {
     r->moments[i] = (gg_velocity_moments){0};
@@ -88,6 +89,7 @@ static void add_whole(rheology *r, const gg_chunk *chunk)
     for (int a = 0; a < 3; a++) cc += chunk->whole_c[a][k] * chunk->whole_c[a][k];
     for (int a = 0; a < 3 && chunk->whole_s[0]; a++) ss += chunk->whole_s[a][k] * chunk->whole_s[a][k];
     r->energy += 0.5 * m->mass[i] * (cc + m->inertia[i] * ss);
+    if (m->turns) r->torque_power += m->mass[i] * m->inertia[i] * m->torque[i] * chunk->whole_s[2][k];
     for (int a = 0; a < 2; a++) r->momentum[a] += m->mass[i] * chunk->whole_c[a][k];
     r->shear_stress += m->mass[i] * chunk->whole_c[0][k] * chunk->whole_c[1][k];
   }
@@ -224,6 +226,7 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
     }
     for (int a = 0; a < 2; a++) work += 0.5 * g[a] * (r->momentum[a] + f * r->memory.momentum[a]) * in->elapsed;
     if (m->frame) work = -in->model->shear_rate * r->shear_stress * in->elapsed;
+    work += r->torque_power * in->elapsed;
     row[CH_GROWTH] = (energy - f * f * r->memory.energy) * unit;
     row[CH_WALL_LOSS] = loss * unit, row[CH_WALL_WORK] = work * unit;
     row[CH_WALL_DRAG] = drag * unit, row[CH_WALL_PUSH] = push * unit;

@@ -143,12 +143,13 @@ static double wall_friction(const double *a, const gg_model *m)
   (void)m;
   return a[CH_WALL_DRAG] / a[CH_WALL_PUSH];
 }
-/* Power of torques, per volume and time: K m s' s for the surface velocity s. */
+/* Power of torques, per volume and time: K m s' s for the surface velocity s. With a local flow, about which spins are
+ * taken, the work has it (rheology.c). */
 static double power_of_torques(const double *a, const gg_model *m)
 {
   double sum = 0;
-  for (int i = 0; i < m->n_species && m->bath.turns; i++)
-    sum += share(m, i) * m->inertia[i] * m->mass[i] * m->bath.torque[i] * of(a, m, i, CH_SPIN_Z);
+  for (int i = 0; i < m->n_species && m->turns && !m->walled && !m->frame; i++)
+    sum += share(m, i) * m->inertia[i] * m->mass[i] * m->torque[i] * of(a, m, i, CH_SPIN_Z);
   return sum * m->density * m->stress_unit;
 }
 /* Power of the noise of a bath or thermostat, and of drag, per volume and time. Spins are dragged towards those that

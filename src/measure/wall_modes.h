@@ -22,7 +22,7 @@ bool gg_measure_wall_mode_is_odd(const gg_model *model, int mode);
 /* The symmetry of a flow between walls: if the walls are alike, a flow along them has a mirror image. */
 typedef enum gg_wall_symmetry {
   GG_NO_SYMMETRY,
-  GG_MIRRORED, /* y -> -y about the middle of the gap: walls at rest and alike, no gravity across */
+  GG_MIRRORED, /* y -> -y about the middle of the gap: walls at rest and alike, no gravity across, no torque about z */
   GG_TURNED /* x -> -x and y -> -y, half a turn about z: walls that move against each other, no gravity but along z */
 } gg_wall_symmetry;
 
@@ -35,6 +35,7 @@ static inline gg_wall_symmetry gg_wall_symmetry_of(const gg_model *m)
     if (image < 0 || m->surface[image].temperature != m->surface[w].temperature) return GG_NO_SYMMETRY;
     still &= m->surface[w].velocity.x == 0;
   }
+  if (still && gg_common_model_is_turned(m)) return m->gravity[0] == 0 ? GG_TURNED : GG_NO_SYMMETRY;
   if (still) return GG_MIRRORED;
   return m->gravity[0] == 0 ? GG_TURNED : GG_NO_SYMMETRY;
 }

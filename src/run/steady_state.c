@@ -128,7 +128,7 @@ static void describe(verdict v, const gg_replicas *all, const gg_convergence *c,
   case WITHOUT_LOSS:
     snprintf(text, size, "no steady state exists: %s",
              all->model.by_speed.gains && !all->model.kicks ? "contacts give energy and take none"
-             : all->model.kicks || all->model.bath.turns
+             : all->model.kicks || all->model.turns
                  ? "what kicks and torques give is not lost again, or spins take up the kicks"
                  : "collisions lose no energy and shear heats the gas");
     return;

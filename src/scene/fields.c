@@ -165,9 +165,10 @@ const gg_field gg_scene_fields[] = {
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY, .by_default = INFINITY,
      .doc = "Coulomb friction coefficient; inf: beta is constant", .when = GG_BIT(GG_IF_BETA), .also = "friction",
      .on_the_way = true, .by_speed = 1 + GG_OF_MU},
-    {"collision.normal_kick", GG_FIELD_PAIRS, AT(collision.normal_kick), 0, LARGE, .unit = "velocity",
+    {"collision.normal_kick", GG_FIELD_PAIRS, AT(collision.kick[GG_NORMAL_KICK]), 0, LARGE, .unit = "velocity",
      .doc = "D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D", .on_the_way = true},
-    {"collision.tangential_kick", GG_FIELD_PAIRS, AT(collision.tangential_kick), -LARGE, LARGE, .unit = "velocity",
+    {"collision.tangential_kick", GG_FIELD_PAIRS, AT(collision.kick[GG_TANGENTIAL_KICK]), -LARGE, LARGE,
+     .unit = "velocity",
      .doc = "D_t of kicks at contact: the surface of grain 1 gets 2 D_t k x z against that of grain 2, k from 1 to 2; "
             "above 0 the pair turns about z by the right hand",
      .on_the_way = true},
@@ -291,7 +292,7 @@ const gg_field gg_scene_species_fields[] = {
     {"drag", GG_FIELD_NUMBER, offsetof(gg_species, drag), SMALL, LARGE, .by_default = 1,
      .doc = "drag of the bath on this species, in units of bath.drag", .thermostat = GG_BATH},
     {"torque", GG_FIELD_NUMBER, offsetof(gg_species, torque), -LARGE, LARGE, .unit = "mass velocity^2",
-     .doc = "constant torque about z on each grain", .when = GG_BIT(GG_IF_ROUGH) | GG_BIT(GG_IF_UNWALLED)},
+     .doc = "constant torque about z on each grain", .when = GG_BIT(GG_IF_ROUGH)},
     {0},
 };
 
@@ -388,7 +389,7 @@ bool gg_scene_has_kicks(const gg_scene *s)
 {
   bool yes = false;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++)
-    yes |= s->collision.normal_kick[p] != 0 || s->collision.tangential_kick[p] != 0;
+    for (int k = 0; k < GG_N_KICKS; k++) yes |= s->collision.kick[k][p] != 0;
   return yes;
 }
 
@@ -397,7 +398,7 @@ bool gg_scene_has_torque(const gg_scene *s)
   bool torque = false, rough = false;
   for (int i = 0; i < s->n_species; i++) torque |= s->species[i].torque != 0;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) rough |= gg_scene_pair_rule(s, p) != GG_SMOOTH;
-  return torque && rough && !gg_flow_is_walled(s->flow);
+  return torque && rough;
 }
 
 int gg_scene_field_pair(const gg_field *f)

@@ -171,13 +171,11 @@ static void (*const set_species[GG_N_THERMOSTATS])(gg_bath *, int i, const gg_mo
 static gg_status set_bath(gg_model *m, const gg_scene *s, gg_error *err)
 {
   double drag = 0, noise = 0;
-  m->bath.turns = gg_scene_has_torque(s);
-  m->bath.on = m->bath.turns || (gg_scene_is_driven(s) && !m->linear_response);
-  for (int i = 0; i < m->n_species && m->bath.on; i++) {
-    if (gg_scene_is_driven(s)) set_species[s->thermostat](&m->bath, i, m, s);
-    if (m->bath.turns)
-      m->bath.torque[i] =
-          gg_units_temperature(m->unit, s->species[i].torque) / (m->inertia[i] * m->mass[i] * gg_model_radius(m, i));
+  m->turns = gg_scene_has_torque(s), m->bath.on = gg_scene_is_driven(s) && !m->linear_response;
+  for (int i = 0; i < m->n_species; i++) {
+    const double turning = m->inertia[i] * m->mass[i] * gg_model_radius(m, i);
+    if (m->turns) m->torque[i] = gg_units_temperature(m->unit, s->species[i].torque) / turning;
+    if (m->bath.on) set_species[s->thermostat](&m->bath, i, m, s);
     drag += m->bath.drag[i], noise += m->bath.noise[i];
   }
   if (!m->bath.on || m->shear_rate != 0 || gg_model_is_injected(m)) return GG_OK;
@@ -197,10 +195,8 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 {
   for (int o = 0; o < gg_pairs_of(m->n_species); o++)
     m->e[o] = s->collision.e[o], m->beta[o] = s->collision.beta[o], m->mu[o] = s->collision.mu[o];
-  for (int o = 0; o < gg_pairs_of(m->n_species); o++) {
-    m->normal_kick[o] = gg_units_velocity(m->unit, s->collision.normal_kick[o]);
-    m->tangential_kick[o] = gg_units_velocity(m->unit, s->collision.tangential_kick[o]);
-  }
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++)
+    for (int k = 0; k < GG_N_KICKS; k++) m->kick[k][o] = gg_units_velocity(m->unit, s->collision.kick[k][o]);
   m->contact_value = s->contact_value;
   gg_common_model_set_pairs(m);
 }

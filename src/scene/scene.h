@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "common/collision.h"
 #include "common/extension.h"
 #include "common/flow.h"
 #include "common/kinds.h"
@@ -90,7 +91,7 @@ struct gg_scene {
   double aspect[3]; /* shape of the box, relative edges */
   struct {          /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
-    double normal_kick[GG_PAIRS], tangential_kick[GG_PAIRS]; /* user's units */
+    double kick[GG_N_KICKS][GG_PAIRS]; /* user's units */
     gg_speed_laws by_speed; /* e, beta and mu that depend on the speed; e[] and so on are their values at 1 */
     gg_law_kind law;
     double speed; /* at which e is e, with a law; in the user's units, or GG_AUTO */

@@ -135,16 +135,13 @@ static json_t *species_json(const gg_scene *scene)
   return list;
 }
 
-/* The text of a change is a number or a word, as the reader wrote it. */
+/* The text of a change is a number, a word, or a formula in quotes. */
 static json_t *changes_json(const gg_scene *scene)
 {
-  static const gg_field number = {.type = GG_FIELD_NUMBER};
   json_t *list = json_array();
   for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
-    char *end;
-    const double x = strtod(c->value, &end);
-    json_t *value = *end ? json_string(c->value) : number_json(&number, x);
-    json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, value));
+    json_t *value = json_loads(c->value, JSON_DECODE_ANY, NULL);
+    json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, value ? value : json_string(c->value)));
   }
   return list;
 }

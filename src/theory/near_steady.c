@@ -48,7 +48,7 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
   *constant = *model;
   constant->law = (gg_restitution_law){0};
   memset(&constant->by_speed, 0, sizeof constant->by_speed);
-  constant->kicks = constant->bath.turns = false;
+  constant->kicks = constant->turns = false;
   if (model->n_species <= FEW) constant->stop = NULL;
   gg_status status = try_theories(model, constant, err);
   free(constant);

@@ -61,7 +61,7 @@ static gg_status check_bath(const gg_theory *theory, const gg_model *m, gg_error
 static gg_status check_collisions(const gg_theory *theory, const gg_model *model, gg_error *err)
 {
   if (theory->own) return GG_OK;
-  if (model->kicks || model->bath.turns)
+  if (model->kicks || model->turns)
     return gg_theory_reject(err, theory->name, "does not describe %s, which this scene has",
                             model->kicks ? "kicks at contact" : "torques");
   const bool by_speed = gg_speed_laws_any(&model->by_speed, gg_pairs_of(model->n_species));

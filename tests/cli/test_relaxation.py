@@ -31,6 +31,19 @@ run: {duration: 10, replicas: 16}
 """
 
 
+KICKED = """flow: hss
+engine: %s
+phi: 0.05
+particles: 1000
+dsmc: {particles: 40000}
+species: [{torque: 0.2}]
+collision: {e: 0.9, beta: 0}
+start: {temperature: 1, spin: 1}
+run: {duration: 10, replicas: 4, seed: 5}
+protocol: [{at: 3.03, collision.normal_kick: 0.1, collision.tangential_kick: -0.2}, {at: 7, collision.e: 0.7}]
+"""
+
+
 def exact(t):
     T = 2 - 1.5 * np.exp(-0.4 * np.minimum(t, 4.03))
     T = np.where(t > 4.03, 0.2 + (T - 0.2) * np.exp(-0.4 * (np.clip(t, 4.03, 7) - 4.03)), T)
@@ -388,6 +401,12 @@ def test_an_interrupted_protocol_resumes_to_the_same_bits():
             continue
         sheared = "shear_rate: 2\n" + (ELASTIC % engine).replace("hss", "usf").replace("{at: 7,", "{at: 7, shear_rate: 1,")
         resumed(engine, sheared.replace("{e: 1}", "{e: 0.9, beta: 0}"))
+
+
+def test_kicks_and_torques_resume_across_changes_to_the_same_bits():
+    """A torque alone, then kicks that begin and change; a start with a mean spin. Daily dsmc alone."""
+    for engine in ["md"] * ("NIGHTLY" in os.environ) + ["dsmc"]:
+        resumed(engine, KICKED % engine)
 
 
 def resumed(engine, scene):

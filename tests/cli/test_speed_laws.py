@@ -61,6 +61,19 @@ def test_resumed_without_the_table():
         check(json.loads(done.out)["results"] == whole["results"], engine)
 
 
+def test_a_change_to_a_formula_is_kept_in_the_result():
+    """The protocol of a stored scene can be read again: the result is resumed, and shown, with the same formula."""
+    scene = f"{GAS}collision: {{e: 0.9}}\nrun: {{duration: 3}}\nprotocol: [{{at: 1, collision.e: '{STEP}'}}, {{at: 2, shear_rate: 2}}]\n"
+    done = run("run", "scene.yaml", "--json", "--quiet", "--engine", "dsmc", "--output", "kept.h5", scene=scene)
+    check(done.code == 0, done.err)
+    kept = [{"at": 1.0, "collision.e": STEP}, {"at": 2.0, "shear_rate": 2}]
+    check(json.loads(done.out)["scene"]["protocol"] == kept, json.loads(done.out)["scene"]["protocol"])
+    done = run("info", "kept.h5", "--json")
+    check(done.code == 0 and STEP in done.out, done.out, done.err)
+    again = run("export", "kept.h5", "--output", "kept.csv")
+    check(again.code == 0, again.err)
+
+
 def test_info_draws_the_law():
     done = run("info", "scene.yaml", scene=GAS + "collision: {e: 1 - 0.2*v^0.2}\n")
     check(done.code == 0 and "e(v) of species 1 and 1" in done.out and "####" in done.out, done.out, done.err)

@@ -263,10 +263,11 @@ static void check_kicked(pair *p, gg_rule rule, double D, double Dt)
 {
   collide(p, rule);
   gg_contact c = p->contact;
-  gg_common_contact_set_kicks(&c, rule != GG_SMOOTH, D, Dt);
+  gg_common_contact_set_kicks(&c, rule != GG_SMOOTH, (const double[]){D, Dt});
   if (rule == GG_SMOOTH) p->s1 = p->s2 = (gg_vec){0, 0, 0};
   const gg_vec J = gg_kicked_impulse(rule, &c, p->k, p->g, p->gn), z = {0, 0, 1};
-  const gg_vec kick = gg_axpy(-c.kt, gg_cross(p->k, z), gg_scale(c.kn, p->k)), rest = gg_sub(J, kick);
+  const gg_vec kick = gg_axpy(-c.kick[GG_TANGENTIAL_KICK], gg_cross(p->k, z), gg_scale(c.kick[GG_NORMAL_KICK], p->k)),
+               rest = gg_sub(J, kick);
   pair without = *p;
   for (int kicked = 0; kicked < 2; kicked++) {
     pair *q = kicked ? p : &without;
@@ -311,10 +312,10 @@ static void sides_of_kicks(void **state)
 {
   (void)state;
   gg_contact c = gg_common_contact_make((gg_partner){1, 0.4}, (gg_partner){1, 0.4}, 0.9, 0.4, 0.1);
-  gg_common_contact_set_kicks(&c, false, 0, 1);
+  gg_common_contact_set_kicks(&c, false, (const double[]){0, 1});
   const gg_vec k = {1, 0, 0};
   assert_true(gg_kicked_impulse(GG_SMOOTH, &c, k, (gg_vec){1, 0, 0}, 1).y > 0);
-  gg_common_contact_set_kicks(&c, true, 3, 0);
+  gg_common_contact_set_kicks(&c, true, (const double[]){3, 0});
   const gg_vec J = gg_kicked_impulse(GG_FRICTIONAL, &c, k, (gg_vec){1, 100, 0}, 1);
   assert_true(fabs(J.x - (0.5 * 1.9 + 3)) < 1e-15 && fabs(J.y - 0.1 * J.x) < 1e-15);
 }

@@ -101,7 +101,7 @@ static void each_flow_has_its_thermostats(void **state)
       gg_error err = {0};
       snprintf(key, sizeof key, ", thermostat: %s", gg_common_thermostats[t].word);
       gg_scene s = scene_of(f, key);
-      if (t == GG_INJECTION) s.collision.normal_kick[0] = 0.1;
+      if (t == GG_INJECTION) s.collision.kick[GG_NORMAL_KICK][0] = 0.1;
       gg_status status = gg_scene_finish(&s, &err);
       if (gg_flow_takes((gg_flow)f, (gg_thermostat)t) && status != GG_OK) fail_msg("%s", err.message);
       if (gg_flow_takes((gg_flow)f, (gg_thermostat)t)) continue;

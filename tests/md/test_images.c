@@ -64,7 +64,7 @@ static gg_md *create(const gg_model *m, bool images)
   return e;
 }
 
-/* Of laboratory velocities; the engine's are those of the image in the box. */
+/* In laboratory velocities; the engine has those of the image in the box. */
 static double fastest(const view *v, uint32_t n, double rate, double height)
 {
   double most = 0;

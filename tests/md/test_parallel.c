@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: the state after so many collisions and the collision sums have the same bits with one, two, three and four
- * threads; with every kind of search, each rule, one species and two, near collapse; however the run is cut, and
- * resumed with another number of threads. These runs do defer events and roll some back. Daily each case has one of the
- * numbers of threads beside one. */
+ * threads; with every kind of search, each rule, kicks and torques, one species and two, near collapse; however the run
+ * is cut, and resumed with another number of threads. These runs do defer events and roll some back. Daily each case
+ * has one of the numbers of threads beside one. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,18 +33,31 @@ static const struct {
     {{GG_HCS, 9000, 0.03, 0.6, 0, INFINITY, {1, 1, 4}}, 1e-4, 2},
     {{GG_USF, 9000, 0.02, 0.8, 0.5, 0.3, {1, 1, 4}}, 0, 1},
     {{GG_USF, 7000, 0.48, 0.7, 0.3, INFINITY, {1, 0.8, 5}}, 1e-4, 2},
+    {{GG_HSS, 6000, 0.3, 0.9, 0, INFINITY, {1, 1, 4}}, 1e-4, 1},
+    {{GG_USF, 6000, 0.2, 0.8, 0.3, 0.4, {1, 1, 4}}, 0, 2},
+    {{GG_HSS, 6000, 0.1, 0.8, -1, INFINITY, {1, 1, 4}}, 1e-4, 2},
 };
 enum { CASES = sizeof cases / sizeof *cases };
+/* Kicks, torques and mean spins of the last cases. */
+static const struct {
+  double normal_kick, tangential_kick, torque, spin;
+} injected[CASES] = {[CASES - 3] = {0, 0, 0.3, 2}, [CASES - 2] = {0, 0.1, -0.2, 0}, [CASES - 1] = {0.3, 0, 0, 0}};
 
 static gg_model model_of(int k)
 {
   gg_scene s = md_scene(cases[k].scene);
   s.md.contact_time = cases[k].contact_time;
+  if (cases[k].scene.flow == GG_HSS) s.thermostat = GG_INJECTION;
+  s.start.spin = injected[k].spin;
+  for (int p = 0; p < GG_PAIRS; p++)
+    s.collision.kick[GG_NORMAL_KICK][p] = injected[k].normal_kick,
+    s.collision.kick[GG_TANGENTIAL_KICK][p] = injected[k].tangential_kick;
   if (cases[k].species > 1) {
     s.n_species = 2;
     s.species[0].fraction = s.species[1].fraction = 0.5;
     s.species[1].diameter = 0.9;
   }
+  for (int i = 0; i < s.n_species; i++) s.species[i].torque = injected[k].torque / (1 + i);
   return md_model_of(&s);
 }
 

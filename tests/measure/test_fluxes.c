@@ -7,9 +7,9 @@
  * of the run. */
 #include "curve_test.h"
 
+#include "graingas.h"
 #include "measure/gap_slabs.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
 
 /* ---- Conservation */
 
@@ -104,7 +104,8 @@ static void balances_are_exact(void **state)
     for (int q = 0; q < GG_PAIRS; q++)
       s.collision.e[q] = k < 8 ? 0.8 : 1, s.collision.beta[q] = k % 2 == 0 ? -1 : k < 8 ? 0.3 : 1;
     if (k & 2)
-      s.n_species = 2, s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.5, 1, 0};
+      s.n_species = 2, s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1, 0},
+      s.species[1] = (gg_species){0.4, 1.5, 3, 0.5, 1, 0};
     if (k & 4) s.walls.temperature[0] = s.walls.temperature[1] = 0.8, s.walls.accommodation = 0.7;
     check_conservation(&s);
   }
@@ -158,12 +159,14 @@ static void planted_grains_have_their_kinetic_fluxes(void **state)
 
 /* ---- Runs */
 
-static gg_result *run_of(gg_engine_kind engine, gg_flow flow, double phi, double e, double beta, double T)
+static gg_result *run_of(gg_engine_kind engine, gg_flow flow, double phi, double e, double beta, double T,
+                         double torque)
 {
   gg_scene s = gg_scene_defaults();
   s.engine = engine, s.flow = flow, s.phi = phi, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = e, s.collision.beta[q] = beta;
   s.walls.temperature[0] = T, s.walls.temperature[1] = flow == GG_FOURIER ? 0.5 * T : T;
+  s.species[0].torque = torque;
   s.run.collisions = engine == GG_MD ? 8000 : phi > 0 ? 4000 : 6000, s.run.warmup = engine == GG_MD ? 1000 : 500;
   s.measure |= GG_MEASURE_PROFILES | GG_MEASURE_FLUXES;
   return ct_run(s);
@@ -172,7 +175,7 @@ static gg_result *run_of(gg_engine_kind engine, gg_flow flow, double phi, double
 static void constant_fluxes(void **state)
 {
   (void)state;
-  gg_result *r = run_of(GG_MD, GG_FOURIER, 0.3, 1, -1, 1);
+  gg_result *r = run_of(GG_MD, GG_FOURIER, 0.3, 1, -1, 1, 0);
   const gg_curve *p = ct_find(&r->curves, "profile_P_yy"), *q = ct_find(&r->curves, "profile_q_y");
   const gg_curve *u = ct_find(&r->curves, "profile_velocity");
   const gg_curve_number p_low = ct_number(u, "wall_P_yy_lower"), q_low = ct_number(q, "wall_q_y_lower"),
@@ -212,7 +215,7 @@ static double sum_of(const gg_curve *c)
 static void energy_balance_closes(void **state)
 {
   (void)state;
-  gg_result *r = run_of(GG_MD, GG_COUETTE, 0.2, 0.9, 0.2, 0.02);
+  gg_result *r = run_of(GG_MD, GG_COUETTE, 0.2, 0.9, 0.2, 0.02, 0);
   const gg_curve *left = ct_find(&r->curves, "profile_energy_residual"), *loss = ct_find(&r->curves, "profile_loss"),
                  *work = ct_find(&r->curves, "profile_stress_work"),
                  *heat = ct_find(&r->curves, "profile_heat_divergence");
@@ -244,12 +247,38 @@ static void energy_balance_closes(void **state)
   gg_result_free(r);
 }
 
+/* A torque on every grain gives energy at all heights: as much as collisions and walls take. Grains that spin push the
+ * gas along the walls by P_xy - P_yx; P_yx is that of the wall at every height. */
+static void torques_enter_the_balance(void **state)
+{
+  (void)state;
+  double T[2];
+  for (int engine = GG_MD; engine <= GG_DSMC; engine++) {
+    gg_result *r = run_of((gg_engine_kind)engine, GG_COUETTE, 0.2, 0.9, 0.2, 0.02, 0.02);
+    const gg_curve *left = ct_find(&r->curves, "profile_energy_residual"), *P = ct_find(&r->curves, "profile_P_yx");
+    const gg_curve *u = ct_find(&r->curves, "profile_velocity");
+    const gg_curve_number wall = ct_number(u, "wall_P_yx_lower");
+    const double none = 0, lost = sum_of(ct_find(&r->curves, "profile_loss"));
+    assert_true(ct_chi2(left, 0, left->n, level, &none) < 2);
+    assert_true(ct_chi2(P, 0, P->n, level, &wall.value) < 2);
+    double variance = 0;
+    for (size_t i = 0; i < left->n; i++) variance += pow(left->error[i], 2);
+    ct_expect("sum of the residual", sum_of(left), sqrt(variance), 0, 0.1 * lost);
+    const gg_estimate *balance = &r->value[GG_Q_ENERGY_BALANCE];
+    ct_expect("energy balance", balance->mean, fmax(balance->error, 2e-3), 1, 0.02);
+    T[engine] = r->value[GG_Q_TEMPERATURE].mean;
+    print_message("# T %.5f, loss %.4g, wall %.4g\n", T[engine], lost, wall.value);
+    gg_result_free(r);
+  }
+  assert_true(fabs(T[0] / T[1] - 1) < 0.03);
+}
+
 /* Momentum and energy are conserved in Monte Carlo, too, dense and dilute. */
 static void monte_carlo(void **state)
 {
   (void)state;
   for (int k = 0; k < (getenv("NIGHTLY") ? 2 : 1); k++) { /* the dilute gas nightly */
-    gg_result *r = run_of(GG_DSMC, GG_COUETTE, k ? 0 : 0.2, 0.9, 0.2, 0.02);
+    gg_result *r = run_of(GG_DSMC, GG_COUETTE, k ? 0 : 0.2, 0.9, 0.2, 0.02, 0);
     const gg_curve *left = ct_find(&r->curves, "profile_energy_residual"), *P = ct_find(&r->curves, "profile_P_yx"),
                    *p = ct_find(&r->curves, "profile_P_yy"), *u = ct_find(&r->curves, "profile_velocity");
     const gg_curve_number yx = ct_number(u, "wall_P_yx_lower"), yy = ct_number(u, "wall_P_yy_lower");
@@ -268,9 +297,9 @@ static void monte_carlo(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(balances_are_exact), cmocka_unit_test(planted_grains_have_their_kinetic_fluxes),
-      cmocka_unit_test(constant_fluxes),    cmocka_unit_test(energy_balance_closes),
-      cmocka_unit_test(monte_carlo),
+      cmocka_unit_test(balances_are_exact),        cmocka_unit_test(planted_grains_have_their_kinetic_fluxes),
+      cmocka_unit_test(constant_fluxes),           cmocka_unit_test(energy_balance_closes),
+      cmocka_unit_test(torques_enter_the_balance), cmocka_unit_test(monte_carlo),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

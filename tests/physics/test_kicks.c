@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kicks at contact and torques, in both engines: every change of the energy is counted; the steady temperature and
  * fourth cumulant of the confined quasi-two-dimensional model in three dimensions; mean spins by torque, drag and
- * friction in closed form; and which scenes have no steady state. */
+ * friction in closed form; which scenes have no steady state; resumed runs have the same bits. */
 #include "../dsmc/lab.h"
+#include "common/thermostat.h"
+#include "md/parallel/parallel.h"
 
 #include <stdbool.h>
 
@@ -18,7 +20,8 @@ static gg_scene scene_of(gg_engine_kind kind, double phi, double e, double beta,
 static void set_kicks(gg_scene *s, double normal, double tangential)
 {
   for (int p = 0; p < GG_PAIRS; p++)
-    s->collision.normal_kick[p] = normal * (1 + 0.1 * p), s->collision.tangential_kick[p] = tangential;
+    s->collision.kick[GG_NORMAL_KICK][p] = normal * (1 + 0.1 * p),
+    s->collision.kick[GG_TANGENTIAL_KICK][p] = tangential;
 }
 
 static gg_model model_of(const gg_scene *s)
@@ -151,7 +154,7 @@ static void check_steady(gg_engine_kind kind, double phi, int64_t n, int block, 
 {
   const double D = 0.1;
   gg_scene s = scene_of(kind, phi, e, -1, n);
-  for (int p = 0; p < GG_PAIRS; p++) s.collision.normal_kick[p] = D;
+  for (int p = 0; p < GG_PAIRS; p++) s.collision.kick[GG_NORMAL_KICK][p] = D;
   const gg_model m = model_of(&s);
   gg_engine *g = engine_of(&m, kind, 3);
   lab_mean T = {0}, c = {0};
@@ -243,6 +246,119 @@ static void friction_and_torque_change_the_mean_spin(void **state)
   }
 }
 
+/* Hash of velocities and spins. */
+static void add_bits(void *context, const gg_chunk *k)
+{
+  uint64_t *h = context;
+  for (size_t i = 0; i < k->n; i++)
+    for (int a = 0; a < 6; a++) {
+      const double *of = a < 3 ? k->c[a] : k->s[a - 3];
+      uint64_t bits = 0;
+      if (of) memcpy(&bits, &of[i], sizeof bits);
+      *h = (*h ^ bits) * 0x100000001b3u;
+    }
+}
+
+static uint64_t bits_of(gg_engine *g)
+{
+  uint64_t h = 5;
+  gg_collision_sums sums;
+  g->ops->snapshot(g, false, add_bits, &h);
+  g->ops->take_sums(g, &sums);
+  for (size_t i = 0; i < sizeof sums; i++) h = (h ^ ((unsigned char *)&sums)[i]) * 0x100000001b3u;
+  return h;
+}
+
+/* Saved and restored, at times and after collisions, a gas continues with the same bits. */
+static void check_resumed(gg_engine_kind kind, const gg_scene *s)
+{
+  const gg_model m = model_of(s);
+  gg_engine *g = engine_of(&m, kind, 9);
+  g->ops->keep_sums(g, true);
+  assert_true(m.kicks || m.turns);
+  for (int k = 0; k < 4; k++) {
+    gg_archive archive = {0};
+    gg_engine *back = NULL;
+    gg_error err = {0};
+    if (k % 2)
+      advance(g, 0.3 / gg_common_model_collision_rate(&m, m.temperature0), UINT64_MAX);
+    else
+      advance(g, INFINITY, 3000);
+    assert_int_equal(g->ops->save(g, &archive, &err), GG_OK);
+    if (g->ops->restore(&m, &archive, &back, &err) != GG_OK) fail_msg("%s", err.message);
+    gg_base_archive_clear(&archive);
+    advance(g, INFINITY, 4000);
+    advance(back, INFINITY, 4000);
+    if (bits_of(g) != bits_of(back)) fail_msg("engine %d, flow %d, rule %d: part %d", kind, s->flow, (int)m.rule, k);
+    g->ops->destroy(g);
+    g = back;
+  }
+  g->ops->destroy(g);
+}
+
+static void resumed_runs_have_the_same_bits(void **state)
+{
+  (void)state;
+  static const gg_flow flows[] = {GG_HSS, GG_USF, GG_COUETTE};
+  static const double rules[][2] = {{0.3, INFINITY}, {0.2, 0.4}};
+  for (int kind = GG_MD; kind <= GG_DSMC; kind++)
+    for (int f = 0; f < 3; f++)
+      for (int rule = 0; rule < 2; rule++)
+        for (int kicks = 0; kicks < 2; kicks++) {
+          gg_scene s = scene_of((gg_engine_kind)kind, 0.1, 0.8, rules[rule][0], 600);
+          s.flow = flows[f];
+          if (s.flow != GG_HSS) s.thermostat = GG_NO_THERMOSTAT;
+          for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = rules[rule][1];
+          if (kicks) set_kicks(&s, 0.3, -0.2);
+          s.start.spin = s.flow == GG_COUETTE ? 0 : 3, s.n_species = 1 + kicks;
+          for (int i = 0; i < s.n_species; i++) s.species[i] = (gg_species){0.5, 1 + 0.4 * i, 1 + 2 * i, 0.4, 1, 0.2};
+          check_resumed((gg_engine_kind)kind, &s);
+        }
+}
+
+/* A torque alone is no thermostat: it leaves free paths, events for several threads, and no kicks between collisions.
+ */
+static void a_torque_alone_is_no_bath(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_MD, 0.2, 0.9, 0, 6000);
+  s.species[0].torque = 0.3;
+  s.aspect[2] = 4;
+  const gg_model m = model_of(&s);
+  assert_true(m.turns && !m.bath.on);
+  assert_int_equal(gg_common_heat_of(&m), GG_UNHEATED);
+  assert_null(gg_md_serial_because(&m));
+}
+
+/* Between collisions spins change at the constant rate N/I, to rounding, in md between two snapshots of any distance;
+ * in dsmc at the end of each step. Between walls, too. */
+static void free_spins_change_at_a_constant_rate(void **state)
+{
+  (void)state;
+  for (int kind = GG_MD; kind <= GG_DSMC; kind++)
+    for (int walls = 0; walls < 2; walls++) {
+      gg_scene s = scene_of((gg_engine_kind)kind, 1e-9, 0.9, 0, 500);
+      if (walls) s.flow = GG_COUETTE, s.thermostat = GG_NO_THERMOSTAT, s.walls.beta = -1;
+      s.species[0].torque = 0.3, s.start.temperature = 1;
+      const gg_model m = model_of(&s);
+      gg_engine *g = engine_of(&m, (gg_engine_kind)kind, 3);
+      for (int k = 0; k < 3; k++) {
+        const lab_view before = view_of(g);
+        gg_engine_state then, now;
+        g->ops->state(g, &then);
+        advance(g, 0.37, UINT64_MAX);
+        g->ops->state(g, &now);
+        const lab_view after = view_of(g);
+        assert_true(now.collisions == 0 && now.time > then.time);
+        const double turned = (after.s_mean[2] - before.s_mean[2]) / after.n,
+                     right = m.torque[0] * (now.time - then.time);
+        if (fabs(turned - right) > 1e-9 * right) fail_msg("engine %d: %g, expected %g", kind, turned, right);
+        assert_true(fabs(after.s_mean[0] - before.s_mean[0]) < 1e-9 * right * after.n);
+      }
+      g->ops->destroy(g);
+    }
+}
+
 static bool is_steady_with(double beta, double D, double D_t)
 {
   gg_scene s = scene_of(GG_DSMC, 0.1, 0.8, beta, 1000);
@@ -286,9 +402,14 @@ static void steady_states(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(energy_is_counted),    cmocka_unit_test(steady_temperature_and_cumulant),
-      cmocka_unit_test(drag_balances_torque), cmocka_unit_test(friction_and_torque_change_the_mean_spin),
+      cmocka_unit_test(energy_is_counted),
+      cmocka_unit_test(steady_temperature_and_cumulant),
+      cmocka_unit_test(drag_balances_torque),
+      cmocka_unit_test(friction_and_torque_change_the_mean_spin),
       cmocka_unit_test(steady_states),
+      cmocka_unit_test(resumed_runs_have_the_same_bits),
+      cmocka_unit_test(a_torque_alone_is_no_bath),
+      cmocka_unit_test(free_spins_change_at_a_constant_rate),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,8 +94,8 @@ static gg_scene reversed(const gg_scene *scene)
       s.collision.e[here] = scene->collision.e[there];
       s.collision.beta[here] = scene->collision.beta[there];
       s.collision.mu[here] = scene->collision.mu[there];
-      s.collision.normal_kick[here] = scene->collision.normal_kick[there];
-      s.collision.tangential_kick[here] = scene->collision.tangential_kick[there];
+      s.collision.kick[GG_NORMAL_KICK][here] = scene->collision.kick[GG_NORMAL_KICK][there];
+      s.collision.kick[GG_TANGENTIAL_KICK][here] = scene->collision.kick[GG_TANGENTIAL_KICK][there];
     }
   }
   return s;
@@ -136,12 +136,12 @@ static int physical(const gg_model *m, bool backward, double x[MOST], const char
     PUT("diameter", m->diameter[i] * L), PUT("mass", m->mass[i] * M), PUT("inertia", m->inertia[i]);
     PUT("grains", (double)m->n_of[i]);
     PUT("drag", m->bath.drag[i] / t), PUT("noise", m->bath.noise[i] * v * v / t);
-    PUT("torque", m->bath.torque[i] * v / t);
+    PUT("torque", m->torque[i] * v / t);
     PUT("spin_drag", m->bath.spin_drag[i] / t), PUT("spin_noise", m->bath.spin_noise[i] * v * v / t);
     for (int l = 0; l <= k; l++) {
       const int j = backward ? m->n_species - 1 - l : l, o = gg_pair(i, j);
       PUT("sigma", m->sigma[o] * L), PUT("chi", m->chi[o]), PUT("e", m->e[o]), PUT("beta", m->beta[o]);
-      PUT("kick", m->normal_kick[o] * v), PUT("kick", m->tangential_kick[o] * v);
+      PUT("kick", m->kick[GG_NORMAL_KICK][o] * v), PUT("kick", m->kick[GG_TANGENTIAL_KICK][o] * v);
       PUT("law", m->law.name ? m->law.scale[o] / v : 0);
     }
   }

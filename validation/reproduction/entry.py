@@ -348,9 +348,9 @@ def read(path):
 
 
 def files(folder=FOLDER):
-    """Paths of all entries: the thesis's, then the review's, each by number."""
+    """Paths of all entries: the thesis's, then the review's, then those of other papers, each by number."""
     names = [name for name in os.listdir(folder) if name.endswith(".yaml")]
-    return [os.path.join(folder, name) for name in sorted(names, key=lambda name: (not name.startswith("thesis"), name))]
+    return [os.path.join(folder, name) for name in sorted(names, key=lambda name: (not name.startswith("thesis"), name.startswith("arxiv"), name))]
 
 
 def _simple(name):
@@ -367,7 +367,7 @@ def find(name, folder=FOLDER):
     if len(found) == 1:
         return names[found[0]]
     if found:
-        raise BadEntry(f"figure '{name}' is in both papers: {' or '.join(found)}?")
+        raise BadEntry(f"figure '{name}' is in several papers: {' or '.join(found)}?")
     near = difflib.get_close_matches(wanted, names, 1, 0.5)
     hint = f"; did you mean '{near[0]}'?" if near else ""
     raise BadEntry(f"there is no figure '{name}'{hint} (validation/reproduce list names all)")

@@ -86,7 +86,8 @@ GG_INLINE void start(gg_dsmc_features features, gg_dsmc_pass_state *state, const
 #else
   if (features.own && pass->losses) state->losses = pass->losses->loss;
 #endif
-  state->sums.kicks = pass->contact.kn != 0 || pass->contact.kt != 0;
+  state->sums.kicks = false;
+  for (int k = 0; k < GG_N_KICKS; k++) state->sums.kicks |= pass->contact.kick[k] != 0;
   state->majorant = (gg_real)(pass->floor + pass->majorant - state->s0);
   state->correction_pass = pass->floor > 0;
   state->most = gg_all(state->majorant);

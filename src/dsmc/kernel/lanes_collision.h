@@ -7,7 +7,7 @@
 
 /* A gg_contact in the lanes' precision. */
 typedef struct gg_dsmc_lane_contact {
-  gg_real jn, jt, mu, im1, im2, ik1, ik2, kn, kt;
+  gg_real jn, jt, mu, im1, im2, ik1, ik2, kick[GG_N_KICKS];
   gg_real mr;           /* 1/(1/m1 + 1/m2) */
   gg_real push1, push2; /* velocity changes from 2 g_n k */
 } gg_dsmc_lane_contact;
@@ -27,18 +27,18 @@ GG_INLINE double gg_dsmc_impulse_unit(bool same, const gg_contact *c)
 GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_contact *c)
 {
   const double mass = gg_dsmc_impulse_unit(same, c);
-  return (gg_dsmc_lane_contact){.jn = (gg_real)(c->jn / mass),
-                                .jt = (gg_real)(c->jt / mass),
-                                .mu = (gg_real)c->mu,
-                                .im1 = (gg_real)(c->im1 * mass),
-                                .im2 = (gg_real)(c->im2 * mass),
-                                .ik1 = (gg_real)(c->ik1 * mass),
-                                .ik2 = (gg_real)(c->ik2 * mass),
-                                .kn = (gg_real)(c->kn / mass),
-                                .kt = (gg_real)(c->kt / mass),
-                                .mr = (gg_real)(1 / (gg_inverse_mr(c) * mass)),
-                                .push1 = (gg_real)(0.5 * c->jn * c->im1),
-                                .push2 = (gg_real)(0.5 * c->jn * c->im2)};
+  gg_dsmc_lane_contact lane = {.jn = (gg_real)(c->jn / mass),
+                               .jt = (gg_real)(c->jt / mass),
+                               .mu = (gg_real)c->mu,
+                               .im1 = (gg_real)(c->im1 * mass),
+                               .im2 = (gg_real)(c->im2 * mass),
+                               .ik1 = (gg_real)(c->ik1 * mass),
+                               .ik2 = (gg_real)(c->ik2 * mass),
+                               .mr = (gg_real)(1 / (gg_inverse_mr(c) * mass)),
+                               .push1 = (gg_real)(0.5 * c->jn * c->im1),
+                               .push2 = (gg_real)(0.5 * c->jn * c->im2)};
+  for (int k = 0; k < GG_N_KICKS; k++) lane.kick[k] = (gg_real)(c->kick[k] / mass);
+  return lane;
 }
 
 #define GG_NUMBER gg_vd

@@ -237,7 +237,7 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state
   state->collisions += (unsigned)__builtin_popcount(gg_bits(candidate.hit));
   if (!gg_dsmc_needs_k(features)) J = gg_vd3_scale(gg_all(0.5 * state->contact.jn), J);
   gg_dsmc_note *note = &state->sums.note[state->sums.n][part];
-  const gg_vd Jn_kicked = kicks ? Jn + gg_all(state->contact.kn) : Jn;
+  const gg_vd Jn_kicked = kicks ? Jn + gg_vd3_normal_kick(&state->contact, candidate.k) : Jn;
   gg_dsmc_note_loss(features, note, candidate.g, J, gg_where(candidate.hit, Jn_kicked));
   if (kicks && features.sums != GG_DSMC_NO_SUMS)
     note->given = gg_where(candidate.hit,

@@ -53,6 +53,7 @@ void gg_dsmc_channel_describe(const gg_model *m, void (*line)(void *context, con
   line(context, gg_dsmc_rule_line(m->rule));
   if (m->law.name) line(context, "e follows from the speed of each collision");
   if (m->kicks) line(context, "kicks at every contact between grains");
+  if (m->turns) line(context, "torques act along the flights");
   line(context, m->boltzmann
                     ? "Boltzmann limit: partners in the same cell, no contact value, no collisional stress"
                     : "Enskog: partners at a distance, contact value of the local density, collisional stress");

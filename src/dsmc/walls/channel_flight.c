@@ -11,10 +11,12 @@
  * touch it infinitely often, so a forced rebound lets it leave fast enough to come back after this time. */
 #define SHORTEST_HOP (1. / 64)
 
-static void move(gg_dsmc_channel_grain *p, gg_vec g, double dt)
+static void move(const gg_dsmc_channel *d, gg_dsmc_channel_grain *p, double dt)
 {
+  const gg_vec g = d->gravity;
   p->r.y += dt * (p->c.y + 0.5 * dt * g.y);
   p->c = gg_axpy(dt, g, p->c);
+  p->s.z += d->model.torque[p->species] * dt;
 }
 
 static void show(const gg_dsmc_channel *d, int w, gg_vec k, gg_vec J, const gg_dsmc_channel_grain *before,
@@ -99,11 +101,11 @@ void gg_dsmc_channel_fly_grain(const gg_dsmc_channel *d, double dt, gg_rng *rng,
   while (!stays(inside_of(d, p->species, dt), p->r.y, p->r.y + dt * (p->c.y + 0.5 * dt * d->gravity.y))) {
     const int w = next_wall(d, p, &delay);
     if (w < 0 || delay >= dt) break;
-    move(p, d->gravity, delay);
+    move(d, p, delay);
     touch(d, w, rng, p, all);
     dt -= delay;
   }
-  move(p, d->gravity, dt);
+  move(d, p, dt);
 }
 
 static void fly_to_walls(gg_dsmc_channel *d, size_t i, double dt, gg_rng *rng, gg_dsmc_channel_contacts *all)
@@ -127,7 +129,7 @@ typedef struct counting {
   double from, inverse, last;
 } counting;
 
-GG_INLINE void fly(gg_dsmc_channel *d, int part, double dt, bool mixture, bool falls, gg_rng *rng,
+GG_INLINE void fly(gg_dsmc_channel *d, int part, double dt, bool mixture, bool falls, bool turns, gg_rng *rng,
                    gg_dsmc_channel_contacts *all)
 {
   const gg_dsmc_channel_cells *c = &d->cells;
@@ -146,6 +148,7 @@ GG_INLINE void fly(gg_dsmc_channel *d, int part, double dt, bool mixture, bool f
     if (__builtin_expect(stays(in, at->y, end), 1)) {
       at->y = end;
       if (falls) at->c = gg_add(at->c, dc);
+      if (turns) d->grains.s[i].z += d->model.torque[d->grains.species[i]] * dt;
     } else
       fly_to_walls(d, i, dt, rng, all);
     const double cell = (at->y - to.from) * to.inverse;
@@ -168,10 +171,10 @@ static void fly_part(void *context, int part)
   gg_dsmc_channel *d = f->d;
   const bool mixture = d->model.n_species > 1, falls = gg_dot(d->gravity, d->gravity) > 0;
   gg_rng *stream = &d->now.streams.walls[part], rng = *stream;
-  if (mixture || falls)
-    fly(d, part, f->dt, mixture, falls, &rng, &f->all[part]);
+  if (mixture || falls || d->model.turns)
+    fly(d, part, f->dt, mixture, falls, d->model.turns, &rng, &f->all[part]);
   else
-    fly(d, part, f->dt, false, false, &rng, &f->all[part]);
+    fly(d, part, f->dt, false, false, false, &rng, &f->all[part]);
   *stream = rng;
 }
 

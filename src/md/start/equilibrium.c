@@ -34,7 +34,7 @@ static void make_elastic(gg_model *m)
 {
   m->flow = GG_EQUILIBRIUM;
   m->thermostat = GG_NO_THERMOSTAT;
-  m->bath = (gg_bath){0};
+  m->bath = (gg_bath){0}, m->turns = false;
   m->law = (gg_restitution_law){0};
   m->by_speed = (gg_speed_laws){0};
   m->extension = NULL;
