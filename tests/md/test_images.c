@@ -64,7 +64,7 @@ static gg_md *create(const gg_model *m, bool images)
   return e;
 }
 
-/* In laboratory velocities; the engine has those of the image in the box. */
+/* The largest speed in the laboratory. The engine has velocities of the image in the box. */
 static double fastest(const view *v, uint32_t n, double rate, double height)
 {
   double most = 0;
