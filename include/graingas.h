@@ -1600,8 +1600,7 @@ typedef struct gg_entry { /* NULL or "": not in this table */
   char value[4096];    /* in force in the scene; without a scene the default, "": none */
   int given;           /* non-zero: given in the scene */
   const char *formula; /* of a quantity: its definition, as LaTeX has it */
-  const char
-      *missing; /* of a quantity or an observable: why the scene cannot have it; NULL: it can, or none is given */
+  const char *missing; /* of a quantity, an observable: why the scene cannot have it; NULL: it can, or none is given */
   const char *answers; /* of a theory: names of quantities, separated by blanks */
   char symbol[48];     /* of a quantity, LaTeX: "T", "\\kappa_{rh}"; "" if user-defined */
   int headline;        /* of a quantity: non-zero if run.relative_error applies to it in the scene */
