@@ -17,25 +17,24 @@ GG_INLINE GG_VECTOR GG_OF(contact_velocity)(gg_rule rule, GG_VECTOR k, GG_VECTOR
 }
 
 /* Impulse J on grain 2 (-J on grain 1), from the contact velocity, its normal part gn = k.g and that of the impulse, Jn
- * = m_r (1+e) gn. */
-GG_INLINE GG_VECTOR GG_OF(impulse_of)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn,
+ * = m_r (1+e) gn; jt = m_t (1+beta). */
+GG_INLINE GG_VECTOR GG_OF(impulse_of)(gg_rule rule, GG_NUMBER jt, GG_NUMBER mu, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn,
                                       GG_NUMBER Jn)
 {
   GG_VECTOR normal = GG_OF(scale)(Jn, k);
   if (rule == GG_SMOOTH) return normal;
   GG_VECTOR gt = GG_OF(sub)(g, GG_OF(scale)(gn, k));
-  GG_NUMBER jt = GG_ALL(c->jt);
   if (rule == GG_FRICTIONAL) {
-    GG_NUMBER gt2 = GG_OF(dot)(gt, gt), limit = c->mu * GG_ABS(Jn);
+    GG_NUMBER gt2 = GG_OF(dot)(gt, gt), limit = mu * GG_ABS(Jn);
     jt = GG_IF_LESS(limit * limit, jt * jt * gt2, limit / GG_SQRT(gt2), jt); /* sliding; never with gt = 0 */
   }
   return GG_OF(axpy)(jt, gt, normal);
 }
 
-/* The same for the e of the contact. */
+/* The same for the coefficients of the contact. */
 GG_INLINE GG_VECTOR GG_OF(impulse)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn)
 {
-  return GG_OF(impulse_of)(rule, c, k, g, gn, c->jn * gn);
+  return GG_OF(impulse_of)(rule, GG_ALL(c->jt), GG_ALL(c->mu), k, g, gn, c->jn * gn);
 }
 
 /* Normal part of the impulse of kicks. */
@@ -46,10 +45,10 @@ GG_INLINE GG_NUMBER GG_OF(normal_kick)(const GG_CONTACT *c, GG_VECTOR k)
 }
 
 /* The impulse with the kicks of the contact, from the part Jn without them. */
-GG_INLINE GG_VECTOR GG_OF(kicked_impulse_of)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn,
-                                             GG_NUMBER Jn)
+GG_INLINE GG_VECTOR GG_OF(kicked_impulse_of)(gg_rule rule, const GG_CONTACT *c, GG_NUMBER jt, GG_NUMBER mu, GG_VECTOR k,
+                                             GG_VECTOR g, GG_NUMBER gn, GG_NUMBER Jn)
 {
-  GG_VECTOR J = GG_OF(impulse_of)(rule, c, k, g, gn, Jn + GG_OF(normal_kick)(c, k));
+  GG_VECTOR J = GG_OF(impulse_of)(rule, jt, mu, k, g, gn, Jn + GG_OF(normal_kick)(c, k));
   const GG_NUMBER kt = GG_ALL(c->kick[GG_TANGENTIAL_KICK]);
   J.x = J.x - kt * k.y;
   J.y = J.y + kt * k.x;
@@ -57,7 +56,7 @@ GG_INLINE GG_VECTOR GG_OF(kicked_impulse_of)(gg_rule rule, const GG_CONTACT *c, 
 }
 GG_INLINE GG_VECTOR GG_OF(kicked_impulse)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn)
 {
-  return GG_OF(kicked_impulse_of)(rule, c, k, g, gn, GG_ALL(c->jn) * gn);
+  return GG_OF(kicked_impulse_of)(rule, c, GG_ALL(c->jt), GG_ALL(c->mu), k, g, gn, GG_ALL(c->jn) * gn);
 }
 
 /* Energy that the kicks P give within the impulse J, whose normal part is Jn: that after J, less that after J - P. */

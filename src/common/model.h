@@ -159,12 +159,6 @@ static inline gg_rule gg_model_pair_rule(const gg_model *m, int pair)
   return gg_common_speed_laws_rule(&m->by_speed, pair, m->beta[pair], m->mu[pair]);
 }
 
-/* True if tangential coefficients of a pair depend on the speed. */
-static inline bool gg_model_friction_by_speed(const gg_model *m, int pair)
-{
-  return m->by_speed.at[GG_OF_BETA][pair] || m->by_speed.at[GG_OF_MU][pair];
-}
-
 /* Radius of a grain that turns a surface velocity into a spin; 1 in the Boltzmann limit. */
 static inline double gg_model_radius(const gg_model *m, int species)
 {

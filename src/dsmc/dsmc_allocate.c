@@ -8,8 +8,7 @@
 
 gg_dsmc_path gg_dsmc_path_of(const gg_dsmc *d, int i, int j)
 {
-  const bool plain = d->model.law.e || gg_model_friction_by_speed(&d->model, gg_pair(i, j));
-  return plain ? GG_DSMC_PLAIN : gg_dsmc_choose_path(&d->ensemble.of[i], &d->ensemble.of[j]);
+  return d->model.law.e ? GG_DSMC_PLAIN : gg_dsmc_choose_path(&d->ensemble.of[i], &d->ensemble.of[j]);
 }
 
 void gg_dsmc_take_paths(gg_dsmc *d)

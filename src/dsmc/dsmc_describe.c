@@ -26,11 +26,6 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   line(context, gg_dsmc_rule_line(m->rule));
   if (m->law.e) line(context, "a restitution law: collisions one by one, without the block kernels");
   if (m->law.name && !m->law.e) line(context, "coefficients follow from the speed of each collision, by a table");
-  for (int p = 0; p < gg_pairs_of(m->n_species); p++)
-    if (gg_model_friction_by_speed(m, p)) {
-      line(context, "beta or mu of the speed: collisions one by one, without the block kernels");
-      break;
-    }
   if (m->kicks) line(context, "kicks at every contact between grains");
   if (m->turns) line(context, "torques act in the middle of each step");
   line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, neither is computed"

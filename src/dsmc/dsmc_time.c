@@ -10,8 +10,7 @@
 static double pace_of_pair(const gg_model *m, int i, int j)
 {
   enum { FEWEST_IN_BLOCKS = 793 }; /* a hundred blocks */
-  const bool blocks = m->n_of[i] >= FEWEST_IN_BLOCKS && m->n_of[j] >= FEWEST_IN_BLOCKS && !m->law.e &&
-                      !gg_model_friction_by_speed(m, gg_pair(i, j));
+  const bool blocks = m->n_of[i] >= FEWEST_IN_BLOCKS && m->n_of[j] >= FEWEST_IN_BLOCKS && !m->law.e;
   return blocks ? (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-(double)m->n / 1000)) : 330;
 }
 

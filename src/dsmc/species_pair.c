@@ -29,7 +29,6 @@ gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
                         .law_unit = ldexp(1, -d->now.power),
                         .bound_margin = 1,
                         .tables = d->tables,
-                        .losses = d->tables ? d->tables->of[GG_OF_E][o] : NULL,
                         .loss_scale = d->tables ? ldexp(d->tables->scale[o], -d->now.power) : 0,
                         .sigma = m->sigma[o],
                         .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};

@@ -312,14 +312,29 @@ static void blocks_and_plain_agree(void **state)
   }
 }
 
-/* In dense shear both paths agree in temperatures, spin, stress, loss and rate: with each rule, one species and two. */
-static void rules_agree(gg_law_kind law)
+/* e is constant, a law's, or beta and mu are formulas of the normal speed, which steps near the mean one. */
+typedef enum coefficients { CONSTANT, VISCOELASTIC, FRICTION_BY_SPEED } coefficients;
+
+static void set_friction_by_speed(gg_scene *s, bool friction)
 {
+  gg_speed_laws *laws = &s->collision.by_speed;
+  for (int pair = 0; pair < gg_pairs_of(2); pair++) {
+    assert_int_equal(gg_common_speed_laws_set(laws, GG_OF_BETA, pair, "-0.8 if v < 1.5 else 0.6", NULL), GG_OK);
+    if (friction) assert_int_equal(gg_common_speed_laws_set(laws, GG_OF_MU, pair, "0.1 + 0.3*tanh(v)", NULL), GG_OK);
+  }
+  gg_common_speed_laws_classify(laws);
+}
+
+/* In dense shear both paths agree in temperatures, spin, stress, loss and rate: with each rule, one species and two. */
+static void rules_agree(coefficients by)
+{
+  const bool law = by == VISCOELASTIC;
   for (int friction = 0; friction < 2; friction++)
     for (int species = 1; species <= 2; species++) {
       gg_scene s = lab_scene(GG_USF, 0.3, 0.8, law && !friction ? -1 : 0.3, 2500);
-      s.collision.law = law;
+      s.collision.law = law ? GG_LAW_VISCOELASTIC : GG_LAW_CONSTANT;
       if (friction) s.collision.mu[0] = s.collision.mu[1] = 0.2;
+      if (by == FRICTION_BY_SPEED) set_friction_by_speed(&s, friction);
       s.n_species = species;
       s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
       s.species[1] = (gg_species){0.5, 0.7, 0.5, 0.3, 1, 0};
@@ -346,14 +361,20 @@ static void rules_agree(gg_law_kind law)
 static void every_rule_agrees(void **state)
 {
   (void)state;
-  rules_agree(GG_LAW_CONSTANT);
+  rules_agree(CONSTANT);
 }
 
 /* The same with a law of restitution, with which the loss is summed differently (smooth grains for rough ones). */
 static void every_rule_agrees_by_law(void **state)
 {
   (void)state;
-  rules_agree(GG_LAW_VISCOELASTIC);
+  rules_agree(VISCOELASTIC);
+}
+
+static void every_rule_agrees_with_friction_by_speed(void **state)
+{
+  (void)state;
+  rules_agree(FRICTION_BY_SPEED);
 }
 
 int main(void)
@@ -364,6 +385,7 @@ int main(void)
                                      cmocka_unit_test(all_instructions_leave_the_same_bits),
                                      cmocka_unit_test(every_rule_agrees),
                                      cmocka_unit_test(every_rule_agrees_by_law),
+                                     cmocka_unit_test(every_rule_agrees_with_friction_by_speed),
                                      cmocka_unit_test(blocks_and_plain_agree)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,6 +17,12 @@
 #include "dsmc/kernel/collision_sums.h"
 #include "dsmc/kernel/directions.h"
 
+/* The table of a coefficient of the contact that depends on the normal speed. */
+typedef struct gg_dsmc_lane_law {
+  const gg_real *values;      /* NULL: the coefficient is constant */
+  const gg_loss_table *table; /* its steps */
+} gg_dsmc_lane_law;
+
 /* A pass in progress: constants and sums that the compiler can keep in registers. */
 typedef struct gg_dsmc_pass_state {
   gg_dsmc_real_block *one, *two, *spin_one, *spin_two;
@@ -24,11 +30,10 @@ typedef struct gg_dsmc_pass_state {
   bool any_odd; /* a last block is not full: odd_one, odd_two; UINT32_MAX: none */
   gg_vu odd_one, odd_two, first_one, first_two, n_one, n_two; /* the same in all lanes */
   gg_dsmc_lane_contact contact;
-  const gg_real *losses;    /* table of a law of restitution; NULL: e is constant */
-  const gg_loss_table *law; /* its steps */
-  gg_real loss_scale;       /* unit of its speeds over the present one */
-  bool sorts;               /* lanes are exchanged by speed; false: at random */
-  gg_real floor, majorant;  /* layer of |C12| */
+  gg_dsmc_lane_law law[GG_N_COEFFICIENTS];
+  gg_real loss_scale;      /* unit of their speeds over the present one */
+  bool sorts;              /* lanes are exchanged by speed; false: at random */
+  gg_real floor, majorant; /* layer of |C12| */
   gg_real s0, shift;
   gg_real lowest;          /* lower end of t: floor - s0 */
   bool from_zero;          /* lowest is 0 */

@@ -80,12 +80,14 @@ GG_INLINE void start(gg_dsmc_features features, gg_dsmc_pass_state *state, const
       .margin = pass->bound_margin,
       .root = (gg_real)(sqrt(pass->bound_scale) * (1 + 1e-6)),
       .per_scale = (gg_real)gg_dsmc_per_bound(pass->bound_scale)};
-  state->law = pass->losses;
+  for (int c = 0; features.own && pass->tables && c < GG_N_COEFFICIENTS; c++) {
+    const gg_loss_table *table = pass->tables->of[c][gg_pair(pass->species[0], pass->species[1])];
 #ifdef GG_SINGLE_LANES
-  if (features.own && pass->losses) state->losses = pass->losses->single;
+    if (table) state->law[c] = (gg_dsmc_lane_law){table->single, table};
 #else
-  if (features.own && pass->losses) state->losses = pass->losses->loss;
+    if (table) state->law[c] = (gg_dsmc_lane_law){table->loss, table};
 #endif
+  }
   state->sums.kicks = false;
   for (int k = 0; k < GG_N_KICKS; k++) state->sums.kicks |= pass->contact.kick[k] != 0;
   state->majorant = (gg_real)(pass->floor + pass->majorant - state->s0);

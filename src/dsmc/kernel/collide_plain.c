@@ -51,15 +51,14 @@ static void sums(gg_dsmc_features features, gg_dsmc_pass *pass, const gg_contact
 static gg_contact contact_at(gg_dsmc_pass *pass, double gn)
 {
   gg_contact c = pass->contact;
-  const double u = gn * pass->loss_scale;
-  if (pass->law || pass->losses) {
-    const double e =
-        pass->law ? gg_common_law_at(pass->law, gn * pass->law_unit, pass->species[0], pass->species[1], &pass->clamped)
-                  : 1 - gg_law_table_at(pass->losses, u);
-    c.jn = (1 + e) / gg_inverse_mr(&c);
-  }
+  if (pass->law)
+    c.jn = (1 + gg_common_law_at(pass->law, gn * pass->law_unit, pass->species[0], pass->species[1], &pass->clamped)) /
+           gg_inverse_mr(&c);
   if (!pass->tables) return c;
+  const double u = gn * pass->loss_scale;
   const int pair = gg_pair(pass->species[0], pass->species[1]);
+  const gg_loss_table *losses = pass->tables->of[GG_OF_E][pair];
+  if (losses) c.jn = (1 + (1 - gg_law_table_at(losses, u))) / gg_inverse_mr(&c);
   gg_coefficients_set_friction(pass->tables, pair, u, &c);
   pass->clamped += gg_coefficients_clamp(pass->tables, pair, u);
   return c;
@@ -79,7 +78,7 @@ static void collide(gg_dsmc_features features, gg_dsmc_pass *pass, grain_pair *p
   }
   gg_contact by_law;
   const gg_contact *contact = &pass->contact;
-  if (pass->law || pass->losses || pass->tables) by_law = contact_at(pass, gn), contact = &by_law;
+  if (pass->law || pass->tables) by_law = contact_at(pass, gn), contact = &by_law;
   gg_vec g = gg_contact_velocity(features.rule, k, c12, pair->sa, pair->sb),
          J = features.own ? gg_kicked_impulse(features.rule, contact, k, g, gn)
                           : gg_impulse(features.rule, contact, k, g, gn);

@@ -8,7 +8,7 @@
 /* A gg_contact in the lanes' precision. */
 typedef struct gg_dsmc_lane_contact {
   gg_real jn, jt, mu, im1, im2, ik1, ik2, kick[GG_N_KICKS];
-  gg_real mr;           /* 1/(1/m1 + 1/m2) */
+  gg_real mr, mt;       /* 1/(1/m1 + 1/m2); jt/(1+beta) */
   gg_real push1, push2; /* velocity changes from 2 g_n k */
 } gg_dsmc_lane_contact;
 
@@ -35,6 +35,7 @@ GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_conta
                                .ik1 = (gg_real)(c->ik1 * mass),
                                .ik2 = (gg_real)(c->ik2 * mass),
                                .mr = (gg_real)(1 / (gg_inverse_mr(c) * mass)),
+                               .mt = (gg_real)(1 / (gg_inverse_mt(c) * mass)),
                                .push1 = (gg_real)(0.5 * c->jn * c->im1),
                                .push2 = (gg_real)(0.5 * c->jn * c->im2)};
   for (int k = 0; k < GG_N_KICKS; k++) lane.kick[k] = (gg_real)(c->kick[k] / mass);

@@ -74,8 +74,7 @@ typedef struct gg_dsmc_pass {
   const gg_restitution_law *law;       /* for the plain path; NULL: constant `contact` */
   double law_unit;                     /* speed in units of the start over the present one */
   const gg_coefficient_tables *tables; /* NULL: constant `contact` */
-  const gg_loss_table *losses;         /* that of e; NULL: constant e */
-  double loss_scale;                   /* speed in units of the table over the present one */
+  double loss_scale;                   /* speed in units of the tables over the present one */
   double shift;                        /* sigma x rate */
   double sigma;                        /* for the stress */
   double floor, majorant;              /* layer of g_n */

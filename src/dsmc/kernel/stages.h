@@ -190,21 +190,49 @@ GG_INLINE void gg_dsmc_load(gg_dsmc_features features, gg_dsmc_pass_state *state
   }
 }
 
-/* Normal impulse J_n = m_r (1+e) g_n, without kicks. */
-GG_INLINE gg_vd gg_dsmc_normal_impulse(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_mask hit, gg_vd gn)
+/* A coefficient of the contact, as tables have it, at the speeds u. */
+GG_INLINE gg_vd gg_dsmc_law_at(const gg_dsmc_lane_law *law, gg_vd u)
 {
-  if (!features.own || !state->losses) return state->contact.jn * gn;
+  const gg_loss_table *table = law->table;
+  gg_vd x = gg_vd3_loss_at(law->values, u);
+  for (int k = 0; k < table->n_steps; k++)
+    x += gg_select(gg_less(u, gg_all((gg_real)table->at[k])), gg_all(0), gg_all((gg_real)table->height[k]));
+  return x;
+}
+
+/* Lanes in which a law itself has no allowed value, as bits. */
+GG_INLINE unsigned gg_dsmc_law_clamps(const gg_dsmc_lane_law *law, gg_vd u)
+{
+  const gg_loss_table *table = law->table;
+  unsigned lanes = 0;
+  for (int k = 0; k < table->n_invalid; k++)
+    lanes |= gg_bits(gg_less(u, gg_all((gg_real)table->to[k]))) & ~gg_bits(gg_less(u, gg_all((gg_real)table->from[k])));
+  return lanes;
+}
+
+/* The coefficients of the contacts: the normal impulse J_n = m_r (1+e) g_n, without kicks, jt = m_t (1+beta), and
+ * mu. */
+typedef struct gg_dsmc_coefficients {
+  gg_vd Jn, jt, mu;
+} gg_dsmc_coefficients;
+
+GG_INLINE gg_dsmc_coefficients gg_dsmc_coefficients_at(gg_dsmc_features features, gg_dsmc_pass_state *state,
+                                                       gg_mask hit, gg_vd gn)
+{
+  const gg_dsmc_lane_contact *c = &state->contact;
+  gg_dsmc_coefficients at = {c->jn * gn, gg_all(c->jt), gg_all(c->mu)};
+  if (!features.own) return at;
+  const gg_dsmc_lane_law *law = state->law;
   const gg_vd u = state->loss_scale * gn;
-  const gg_loss_table *law = state->law;
-  gg_vd loss = gg_vd3_loss_at(state->losses, u);
-  for (int k = 0; k < law->n_steps; k++)
-    loss += gg_select(gg_less(u, gg_all((gg_real)law->at[k])), gg_all(0), gg_all((gg_real)law->height[k]));
-  for (int k = 0; k < law->n_invalid; k++) {
-    const unsigned below = gg_bits(gg_less(u, gg_all((gg_real)law->from[k])));
-    state->clamped +=
-        (unsigned)__builtin_popcount(gg_bits(hit) & ~below & gg_bits(gg_less(u, gg_all((gg_real)law->to[k]))));
-  }
-  return state->contact.mr * gn * (2 - loss);
+  unsigned clamped = 0;
+  for (int k = 0; k < GG_N_COEFFICIENTS; k++)
+    if (law[k].values) clamped |= gg_dsmc_law_clamps(&law[k], u);
+  state->clamped += (unsigned)__builtin_popcount(gg_bits(hit) & clamped);
+  if (law[GG_OF_E].values) at.Jn = c->mr * gn * (2 - gg_dsmc_law_at(&law[GG_OF_E], u));
+  if (features.rule == GG_SMOOTH) return at;
+  if (law[GG_OF_BETA].values) at.jt = c->mt * gg_dsmc_law_at(&law[GG_OF_BETA], u);
+  if (law[GG_OF_MU].values) at.mu = gg_dsmc_law_at(&law[GG_OF_MU], u);
+  return at;
 }
 
 /* Second stage of a part: accept candidates, and compute their directions and impulses. */
@@ -221,14 +249,15 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state
     gg_vd3 sa = gg_dsmc_lanes_load(&state->spin_one[at->one], part * GG_WIDTH);
     candidate.g = gg_vd3_contact_velocity(features.rule, candidate.k, candidate.g, sa, at->sb[part]);
   }
-  const gg_vd Jn = gg_dsmc_normal_impulse(features, state, candidate.hit, candidate.gn);
+  const gg_dsmc_coefficients by = gg_dsmc_coefficients_at(features, state, candidate.hit, candidate.gn);
   const bool kicks = features.own && __builtin_expect(state->sums.kicks, 0);
   gg_vd3 J;
   if (kicks)
-    J = gg_vd3_kicked_impulse_of(features.rule, &state->contact, candidate.k, candidate.g, candidate.gn, Jn);
+    J = gg_vd3_kicked_impulse_of(features.rule, &state->contact, by.jt, by.mu, candidate.k, candidate.g, candidate.gn,
+                                 by.Jn);
   else
     J = gg_dsmc_needs_k(features)
-            ? gg_vd3_impulse_of(features.rule, &state->contact, candidate.k, candidate.g, candidate.gn, Jn)
+            ? gg_vd3_impulse_of(features.rule, by.jt, by.mu, candidate.k, candidate.g, candidate.gn, by.Jn)
             : candidate.gn_k;
   J = (gg_vd3){gg_where(candidate.hit, J.x), gg_where(candidate.hit, J.y), gg_where(candidate.hit, J.z)};
   if (gg_dsmc_needs_k(features)) *gg_dsmc_normals(features, at, part) = candidate.k;
@@ -237,7 +266,7 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state
   state->collisions += (unsigned)__builtin_popcount(gg_bits(candidate.hit));
   if (!gg_dsmc_needs_k(features)) J = gg_vd3_scale(gg_all(0.5 * state->contact.jn), J);
   gg_dsmc_note *note = &state->sums.note[state->sums.n][part];
-  const gg_vd Jn_kicked = kicks ? Jn + gg_vd3_normal_kick(&state->contact, candidate.k) : Jn;
+  const gg_vd Jn_kicked = kicks ? by.Jn + gg_vd3_normal_kick(&state->contact, candidate.k) : by.Jn;
   gg_dsmc_note_loss(features, note, candidate.g, J, gg_where(candidate.hit, Jn_kicked));
   if (kicks && features.sums != GG_DSMC_NO_SUMS)
     note->given = gg_where(candidate.hit,
