@@ -340,7 +340,6 @@ gg_session_advance gg_session_free gg_session_get_progress gg_session_new gg_ses
 gg_simulation_record: events() stores all collisions of a step, however many
 gg_sweep_collect gg_sweep_run_point gg_sweep_to_json gg_sweep_vary: sweep(), Point and to_dataframe()
 gg_worker_run gg_workers_free gg_workers_new gg_workers_threads: mpirun starts the command
-gg_checkpoint_about: a loaded simulation has its scene
 """
 
 

@@ -213,7 +213,7 @@ gg_status gg_common_positions_fit(const gg_model *m, size_t n, const double edge
       double *x = &r[3 * i + (size_t)a];
       *x *= unit;
       if (!gg_common_surface_is_closed(m, a)) *x -= box[a] * floor(*x / box[a]);
-      if (!isfinite(*x)) return gg_base_fail(err, GG_BAD_INPUT, "the position of grain %zu is infinite", i);
+      if (!isfinite(*x)) return gg_base_fail(err, GG_BAD_INPUT, "the position of grain %zu is not finite", i);
     }
   }
   for (int k = 0; k < m->n_species; k++)

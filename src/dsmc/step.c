@@ -59,6 +59,7 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   if (d->model.turns && d->heat != GG_HEAT_BATHES) gg_dsmc_ensemble_turn(&d->ensemble, d->model.torque, dt);
   d->interval_begin += 0.5 * dt;
   gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
+  if (d->heat == GG_UNHEATED) d->now.lost = 0;
 }
 
 /* Length of the next step, if `left` time and `wanted` collisions remain. Steps of the length given by the scene are

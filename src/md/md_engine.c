@@ -71,7 +71,10 @@ static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stre
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
 {
   gg_md *e;
-  if (model->start) return create_with(model, seed, stream, model->start, NULL, engine, err);
+  if (model->start) {
+    const gg_status status = create_with(model, seed, stream, model->start, NULL, engine, err);
+    return status == GG_BAD_INPUT ? gg_base_error_prefix(err, status, "start.positions") : status;
+  }
   GG_TRY(gg_md_accepts(model, err));
   if (gg_md_starts_in_equilibrium(model))
     return gg_md_create_in_equilibrium(&gg_md_ops, model, seed, stream, NULL, engine, err);

@@ -6,10 +6,11 @@
 #include "measure/diffusion_lags.h"
 #include "measure/pairs.h"
 
-/* Without positions, or if a fast grain may travel half the shortest edge between two snapshots. */
+/* Without positions, in a run that is followed in time, whose intervals may have any length, or if a fast grain may
+ * travel half the shortest edge between two snapshots. */
 bool gg_measure_displacement_follows_flights(const gg_model *m)
 {
-  if (m->homogeneous) return true;
+  if (m->homogeneous || m->cuts_steps) return true;
   double lightest = m->mass[0], fast, way;
   for (int k = 1; k < m->n_species; k++) lightest = fmin(lightest, m->mass[k]);
   fast = 5 / sqrt(lightest);

@@ -74,7 +74,10 @@ void *gg_measure_two_times_memory(gg_two_times *t, size_t *bytes)
 
 bool gg_measure_two_times_is_memory(const gg_two_times *t)
 {
-  return t->state->origins <= WAITS && gg_measure_displacement_is_valid(&t->path);
+  const struct two_times_state *s = t->state;
+  bool good = s->origins <= WAITS && isfinite(s->time) && isfinite(s->collisions) && isfinite(s->T) && s->unit > 0;
+  for (size_t w = 0; good && w < (size_t)s->origins; w++) good = s->at[w] >= 0 && s->at[w] <= s->collisions;
+  return good && gg_measure_displacement_is_valid(&t->path);
 }
 
 void gg_measure_two_times_restart(gg_two_times *t)
@@ -104,9 +107,10 @@ void gg_measure_two_times_rescaled(gg_two_times *t, double factor)
   t->state->T *= factor * factor;
 }
 
-/* Times of a lag are the nearest of the fine steps, or between the powers of 2^(1/LOG). */
+/* Times of a lag are the nearest of the fine steps, or between the powers of 2^(1/LOG). LAGS: beyond all lags. */
 static int lag_of(double collisions)
 {
+  if (!(collisions >= 0 && collisions < 1e6)) return LAGS;
   const int fine = (int)(collisions / STEP + 0.5);
   if (fine < FINE) return fine;
   return FINE + (int)fmax(LOG * log2(collisions / ((FINE - 0.5) * STEP)), 0);

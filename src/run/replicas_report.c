@@ -371,7 +371,7 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
   result->scene = gg_scene_copy_new(&all->scene, err);
   if (!result->scene) return GG_FAILED;
   result->model = all->model;
-  result->model.stop = NULL; /* it ends with the run */
+  result->model.stop = NULL, result->model.start = NULL; /* they end with the run */
   result->engine = all->replica[0].engine->ops->name;
   gg_run_result_label(result);
   gg_slow_modes slow;
