@@ -16,18 +16,18 @@ from .errors import BadInput
 RISING = np.array([[76, 84, 232], [146, 70, 205], [220, 84, 140], [250, 150, 74], [255, 238, 90]], float)
 DARK = "#10151a"
 TURN, TILT = 0.45, 0.22
-MOST = 4000  # grains that are drawn: those in front
+MOST_GRAINS = 4000  # grains that are drawn: those in front
 
 
-def colours(shares):
+def colours(values):
     """"#rrggbb" of values from 0 (slow) to 1 (fast)."""
-    at = np.clip(shares, 0, 1) * (len(RISING) - 1)
+    at = np.clip(values, 0, 1) * (len(RISING) - 1)
     i = np.minimum(at.astype(int), len(RISING) - 2)
     rgb = RISING[i] + (at - i)[:, None] * (RISING[i + 1] - RISING[i])
     return ["#%02x%02x%02x" % tuple(one) for one in np.rint(rgb).astype(int)]
 
 
-def seen(points, box):
+def project(points, box):
     """Points in the box as the camera sees them: x to the right, y up, depth towards the viewer; the centre is 0."""
     x, y, z = (np.asarray(points, float) - np.asarray(box) / 2).T
     x, z = x * np.cos(TURN) + z * np.sin(TURN), z * np.cos(TURN) - x * np.sin(TURN)
@@ -47,7 +47,7 @@ def picture(sim, size=360):
     speed = np.sqrt((grains.velocity**2).sum(axis=1))
     colour = colours(speed / (2 * np.sqrt((speed**2).mean()) or 1))
     radius = np.array([one.diameter for one in sim.species])[grains.species] / 2
-    places, frame = seen(grains.position, box), seen(corners(box), box)
+    places, frame = project(grains.position, box), project(corners(box), box)
     scale = size / (2 * np.abs(frame[:, :2]).max() + 2 * radius.max())
     edges = [(a, b) for a in range(8) for b in range(a) if bin(a ^ b).count("1") == 1]
     at = size / 2 + scale * places[:, :2] * [1, -1]
@@ -58,7 +58,7 @@ def picture(sim, size=360):
              f'<rect width="{size}" height="{size}" fill="{DARK}"/>']
     parts += [f'<path d="M{lines[a][0]:.1f} {lines[a][1]:.1f}L{lines[b][0]:.1f} {lines[b][1]:.1f}" stroke="#8899aa"/>' for a, b in edges]
     parts += [f'<circle cx="{at[i][0]:.1f}" cy="{at[i][1]:.1f}" r="{scale * radius[i]:.1f}" fill="{colour[i]}" stroke="{DARK}" stroke-width=".5"/>'
-              for i in np.argsort(places[:, 2])[-MOST:]]
+              for i in np.argsort(places[:, 2])[-MOST_GRAINS:]]
     parts += [f'<text x="2" y="{size + 15 + 16 * i}" font-size="12" font-family="sans-serif">{html.escape(line)}</text>' for i, line in enumerate(words)]
     return "".join(parts) + "</svg>"
 

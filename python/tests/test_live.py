@@ -41,7 +41,7 @@ def test_a_picture_has_each_grain_once_inside_its_frame():
 
 def test_a_box_is_turned_and_tilted_without_being_stretched():
     box = np.array([4.0, 2.0, 3.0])
-    flat = live.seen(live.corners(box), box)
+    flat = live.project(live.corners(box), box)
     for a in range(8):
         for b in range(a):
             assert np.isclose(np.linalg.norm(flat[a] - flat[b]), np.linalg.norm((live.corners(box)[a] - live.corners(box)[b])))

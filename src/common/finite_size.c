@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-/* Means lie off by so much over the number of grains, those of the scarcest species: fluctuations of T lower it by half
- * their relative variance, as its rate of change bends. Measured
- * (validation/noise_free/monte_carlo_bias.c): 0.5 to 1.5 in T, the stresses and the viscosity. */
+/* Relative bias of means, times the number of grains of the scarcest species. Fluctuations of T lower its mean by half
+ * their relative variance, because dT/dt is concave in T. Measured in T, the stresses and the viscosity: 0.5 to 1.5
+ * (validation/noise_free/monte_carlo_bias.c). */
 #define BIAS_TIMES_N 2
-/* Between walls the flow fluctuates, too, and what dissipates follows: T of dense Couette flows rises by 4 to 22 of 1/N
- * (phi = 0.1 and 0.3, e = 0.5 to 0.9, N = 1000 beside 20000), of a dilute one by 0.4(0.7) (phi = 0.01). */
+/* The same between walls, where fluctuations of the flow add dissipation: T of dense Couette flows is higher by 4/N to
+ * 22/N (phi = 0.1 and 0.3, e = 0.5 to 0.9, N = 1000 against 20000), of a dilute one by 0.4(7)/N (phi = 0.01). */
 #define BIAS_BETWEEN_WALLS 25
 #define BIAS_BY_PHI 230
 

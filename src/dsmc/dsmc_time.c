@@ -14,8 +14,8 @@ static double pace_of_pair(const gg_model *m, int i, int j)
   return blocks ? (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-(double)m->n / 1000)) : 330;
 }
 
-/* Between walls grains fly, too. Each pair of species is a sweep of its own, with its share of the collisions; noise is
- * drawn. */
+/* Between walls the time includes the flight. Without walls it is a mean over the pairs of species, weighted with their
+ * collision rates, times the cost of a sweep for each pair; baths and kicks add the time to draw noise. */
 double gg_dsmc_nanoseconds(const gg_model *m)
 {
   double sum = 0, rates = 0;

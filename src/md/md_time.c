@@ -5,7 +5,7 @@
 #include "common/thermostat.h"
 #include "md/md_operations.h"
 
-/* Cells are as wide as the largest grain: how many more grains there are in one than of equal ones. */
+/* Grains in a cell, which is as wide as the largest grain, over their number if all grains were equal. */
 static double crowding(const gg_model *m)
 {
   double cubes = 0;
@@ -13,7 +13,8 @@ static double crowding(const gg_model *m)
   return pow(gg_common_model_widest(m), 3) / cubes;
 }
 
-/* A kick is nearly a collision's work, in a thin gas less, and there are more the more energy is lost (md/kicks.h). */
+/* Time of a collision with the kicks between collisions, over that of a collision alone. A kick takes nearly as long as
+ * a collision, in a dilute gas less. The more energy collisions lose, the more kicks there are (md/kicks.h). */
 static double cost_of_kicks(const gg_model *m)
 {
   const double slots = m->shear_rate != 0 ? 25 : 5, rate = gg_common_model_collision_rate(m, m->temperature0);
@@ -24,8 +25,8 @@ static double cost_of_kicks(const gg_model *m)
   return gg_common_is_kicked(m) ? 1 + fmin(7 * loss, 1.1) : 1;
 }
 
-/* The thinner the gas the more cells are crossed between two; out of cache beyond some
- * thousand grains; walls are met, too, and parabolas cost more than straight lines. */
+/* A grain crosses the more cells between two collisions the more dilute the gas is. Beyond 2000 grains the data leave
+ * the cache. Walls add collisions with them, and parabolic paths under gravity. */
 double gg_md_nanoseconds(const gg_model *m)
 {
   const double cells = 180 + 115 / sqrt(fmax(m->phi, 1e-12)), cache = 1 + 0.2 * fmax(0, log((double)m->n / 2000));

@@ -3,8 +3,8 @@
  * The long waves across the gap (measure/wall_modes.h) show for how long. Between like walls the reported quantities
  * are even under the symmetry of the flow: they follow even modes, and the squares of odd ones. A square forgets in
  * half the time. The slowest mode of all is often odd: the gas drifts along the walls with one of them. Normal
- * stresses, free paths and fourth moments follow its square closely. A core that keeps to one side is to be seen,
- * too. */
+ * stresses, free paths and fourth moments follow its square closely. The mode of the centre of mass also shows whether
+ * a core stays on one side. */
 #include "measure/slow_modes.h"
 
 #include <math.h>

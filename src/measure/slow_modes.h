@@ -11,9 +11,8 @@ typedef struct gg_slow_modes {
   int modes; /* measure/wall_modes.h; 0 without walls */
   double decay[GG_MOST_WALL_MODES];
   double time; /* the longest over which results remember a mode: half its decay time where they follow its square */
-  double mean_time; /* that of all modes: the slowest of several estimates is mostly one that is too long */
-  /* Walls alike: how far from the middle the centre of mass was on average, and that mean's share in the mean square.
-   */
+  double mean_time; /* mean of these times over all modes; the longest of several estimates is mostly too long */
+  /* Walls alike: mean position of the centre of mass, from the middle; the square of that mean over the mean square. */
   double aside, aside_share;
 } gg_slow_modes;
 /* `channel`: the first of the wall modes in a row. */

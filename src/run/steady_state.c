@@ -142,7 +142,7 @@ static void describe(verdict v, const gg_replicas *all, const gg_convergence *c,
   case TRENDING: describe_trend(c, w.happened, text, size); return;
   case NO_SAMPLE: snprintf(text, size, "too short to tell: no sample was averaged over"); return;
   case SHORTER_THAN_SLOWEST_MODE:
-    snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
+    snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode needs %.0f",
              w.happened, (double)all->criteria.least_steady * w.happened / w.samples);
     return;
   case LINEAR_RESPONSE: describe_linear_response(&all->model, text, size); return;

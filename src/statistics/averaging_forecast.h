@@ -13,7 +13,7 @@ typedef struct gg_averaging_forecast {
   struct {
     double window, log_scale; /* samples; ln(error sqrt(window)) */
   } errors[GG_FORECAST_ERRORS];
-  bool trending;     /* when last looked: the window would be given up */
+  bool trending;     /* by the latest errors: the window would be given up for a trend */
   double trusted_at; /* samples that the window needs before its error can be trusted */
   double sure_at;    /* and before it is sure */
 } gg_averaging_forecast;

@@ -14,7 +14,8 @@ static uint64_t next_quarter(const gg_stopping_criteria *criteria, uint64_t rest
   return next;
 }
 
-/* A window that ends a run by its length is tested there for no other reason. */
+/* A run that may be extended gives up windows at the lengths of next_quarter alone. A window that ends at another
+ * length, set by a criterion, is not given up there: a run with other criteria would not test it at that length. */
 bool gg_statistics_rule_restarts(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window)
 {
   const bool regular = !criteria->extends || next_quarter(criteria, restarts, window - 1) == window;

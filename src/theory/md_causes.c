@@ -126,12 +126,13 @@ static bool may_be_structured(const gg_theory_difference *d, char *text, size_t 
   return true;
 }
 
-/* Collisions without loss leave more energy; a share of them cannot change it many times over. */
+/* Collisions without loss leave more energy. It changes by less than ten times their fraction. */
 static bool treated(const gg_theory_difference *d, char *text, size_t size)
 {
-  const double share = d->treated;
-  if (!(share > 1e-3 && d->by * follows_energy(d->q) > 0 && fabs(d->by) < 10 * share)) return false;
-  snprintf(text, size, "%.2g %% of md's collisions fell under the contact-time rule and lost no energy", 100 * share);
+  const double fraction = d->treated;
+  if (!(fraction > 1e-3 && d->by * follows_energy(d->q) > 0 && fabs(d->by) < 10 * fraction)) return false;
+  snprintf(text, size, "%.2g %% of md's collisions fell under the contact-time rule and lost no energy",
+           100 * fraction);
   return true;
 }
 
@@ -174,21 +175,21 @@ static bool correlated(const gg_theory_difference *d, char *text, size_t size)
 
 /* hss, e = 0.8, phi = 0.1: md's rate of collisions is 1.2, 4.9 and 9.8 % above Enskog's where a grain goes 1.8, 0.49
  * and 0.2 diameters until the bath turns it; T agrees. */
-#define FAR_WAY 3
+#define LONG_DISTANCE 3
 static bool meets_again(const gg_theory_difference *d, char *text, size_t size)
 {
   const gg_model *m = d->model;
   const double T = d->T;
   const bool of_collisions = d->q == GG_Q_COLLISION_RATE || d->q == GG_Q_MEAN_FREE_PATH || d->q == GG_Q_KNUDSEN;
-  const double way = sqrt(isfinite(T) ? T : m->temperature0) / m->bath.drag[0];
-  if (!(is_homogeneous(d) && m->bath.drag[0] > 0 && m->shear_rate == 0 && of_collisions && way < FAR_WAY &&
+  const double distance = sqrt(isfinite(T) ? T : m->temperature0) / m->bath.drag[0];
+  if (!(is_homogeneous(d) && m->bath.drag[0] > 0 && m->shear_rate == 0 && of_collisions && distance < LONG_DISTANCE &&
         d->by * (d->q == GG_Q_COLLISION_RATE ? 1 : -1) > 0 && fabs(d->by) < 0.4))
     return false;
   snprintf(
       text, size,
       "the bath turns a grain after sqrt(T)/drag = %.2g d, so that grains that have met meet again: md collides more "
-      "often than Enskog's equation has, at phi = 0.1 by 5 %% where that way is 0.5 d, by 10 %% at 0.2 d",
-      way);
+      "often than Enskog's equation has, at phi = 0.1 by 5 %% where that distance is 0.5 d, by 10 %% at 0.2 d",
+      distance);
   return true;
 }
 

@@ -37,7 +37,8 @@ static gg_status try_theories(gg_model *model, gg_model *constant, gg_error *err
   return GG_OK;
 }
 
-/* With so many species theories take milliseconds, and a run that is stopped keeps its start. */
+/* With at most so many species theories take milliseconds. They are then not interrupted, so that a run that is stopped
+ * at once still has its initial temperature. */
 enum { FEW = 2 };
 
 /* Theories know constant coefficients alone: for a law, its value at the mean impact speed. */

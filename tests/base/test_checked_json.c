@@ -13,7 +13,7 @@
 #include "io/checked_json.h"
 
 static const char text[] =
-    "{\"verdict\": \"too short to tell: averaged over 40 collisions a grain, the slowest mode asks for 300\", "
+    "{\"verdict\": \"too short to tell: averaged over 40 collisions a grain, the slowest mode needs 300\", "
     "\"a key that is longer than the first room of a text\": [1, 2.5, null, true, \"carnahan_starling\"]}";
 
 /* jansson lost letters so ("averaged ovr"), and called the document read. */

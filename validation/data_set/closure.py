@@ -22,7 +22,7 @@ def contact(phi):
 
 
 def formula(phi, e):
-    """T, p and eta of steady shear in units of rho_p, d and the shear rate; half of the truth or more."""
+    """T, p and eta of steady shear in units of rho_p, d and the shear rate; 1 to 3 times those of the table."""
     G = contact(phi)
     J = (1 + e) / 2 + math.pi / 32 * (5 + 2 * (1 + e) * (3 * e - 1) * G) * (5 + 4 * (1 + e) * G) / (
         (24 - 6 * (1 - e) ** 2 - 5 * (1 - e * e)) * G * G)
@@ -51,7 +51,7 @@ class Closure:
         return {a: math.prod((v(x) - v(b)) / (v(a) - v(b)) for b in nodes if b != a) for a in nodes}
 
     def __call__(self, phi, e, without_phi=None, without_e=None):
-        """T, p, eta and zeta = 2 eta / (3 n T), the share of translational energy lost per time."""
+        """T, p, eta and zeta = 2 eta / (3 n T), the fraction of the translational energy lost per time."""
         if not (self.phi[0] <= phi <= self.phi[-1] and self.e[0] <= e <= self.e[-1]):
             raise ValueError(f"phi from {self.phi[0]} to {self.phi[-1]} and e from {self.e[0]} to {self.e[-1]} are in the table")
         over_phi = self.weights([x for x in self.phi if x != without_phi], phi, lambda x: contact(x) / (contact(x) + 0.3))
