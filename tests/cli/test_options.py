@@ -13,7 +13,7 @@ SCENE = ("flow: usf\nphi: 0.1\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsm
 COMMANDS = "compare", "run", "theory", "plot", "info", "bench"
 TAKEN = {"set": "compare run theory info", "output": "compare run plot", "json": "compare run theory info bench",
          "seed": "compare run bench", "threads": "compare run bench", "quiet": " ".join(COMMANDS),
-         "resume": "compare run", "accept-version": "compare run sweep", "all": "compare run theory info", "engine": "run", "format": "plot", "picture": "compare bench",
+         "resume": "compare run", "extend": "compare run", "accept-version": "compare run sweep", "all": "compare run theory info", "engine": "run", "format": "plot", "picture": "compare bench",
          "width": "compare plot bench",
          "quick": "bench", "limit": "bench", "schema": "info", "theory": "theory", "help": " ".join(COMMANDS)}
 

@@ -66,6 +66,7 @@ static const field state_fields[] = {
     FIELD(gg_engine_state, overflows, COUNT, DSMC_ONLY, "majorant_overflows"),
     FIELD(gg_engine_state, overfilled, NUMBER, LEFT_OUT, NULL),
     FIELD(gg_engine_state, offset, NUMBER, LEFT_OUT, NULL),
+    FIELD(gg_engine_state, turns, NUMBER, LEFT_OUT, NULL), /* frames have the tilt of their box */
     FIELD(gg_engine_state, worst_overlap, NUMBER, MD_ONLY, "worst_overlap"),
     FIELD(gg_engine_state, time_step, NUMBER, DSMC_ONLY, "time_step"),
     FIELD(gg_engine_state, time_step_bias, NUMBER, DSMC_ONLY, "time_step_bias"),
