@@ -34,10 +34,10 @@ def extended(result, *args):
 
 
 def test_an_extended_run_has_the_bits_of_one_with_its_criteria_from_the_start():
-    for engine, errors in ("md", (0.02, 0.009, 0.007)), ("dsmc", (0.01, 0.004, 0.003)):
+    for engine, errors in ("md", (0.02, 0.012, 0.007)), ("dsmc", (0.01, 0.006, 0.003)):
         ends = [(f"relative_error: {errors[0]}", f"relative_error: {errors[1]}"),
                 (f"replicas: 3, relative_error: {errors[0]}", f"replicas: 3, relative_error: {errors[2]}"),
-                ("until: {N1: 0.06}", "until: {N1: 0.03}"), ("collisions: 321", "collisions: 1000")]
+                ("until: {N1: 0.06}", "until: {N1: 0.04}"), ("collisions: 321", "collisions: 1000")]
         for i, (first, then) in enumerate(ends):
             whole = at_once("whole", SCENE % (engine, then, ""))
             part = at_once("part", SCENE % (engine, first, ""))
@@ -48,9 +48,9 @@ def test_an_extended_run_has_the_bits_of_one_with_its_criteria_from_the_start():
 
 
 def test_a_run_is_extended_step_by_step():
-    whole = at_once("whole", SCENE % ("md", "relative_error: 0.008", ""))
+    whole = at_once("whole", SCENE % ("md", "relative_error: 0.016", ""))
     at_once("part", SCENE % ("md", "relative_error: 0.06", ""))
-    for error in 0.02, 0.013, 0.01, 0.009, 0.008:
+    for error in 0.04, 0.026, 0.02, 0.018, 0.016:
         extended("part.h5", "--set", f"run.relative_error={error}")
     check(numbers("part.h5") == whole)
 
