@@ -72,7 +72,7 @@ const tests = {
     assert.ok(share > 0.1 && share < 0.9 && colours > 20, `${share} of the box, ${colours} colours`);
     assert.ok(await tab.value("byId('table').tBodies[0].rows.length > 3"));
     assert.match(await tab.value("byId('version').textContent"), /graingas \d+\.\d+\.\d+.*\([0-9a-f]{7,}/);
-    assert.ok(fs.statSync(file).size < 1.9e6, `${fs.statSync(file).size} bytes`);
+    assert.ok(fs.statSync(file).size < 2e6, `${fs.statSync(file).size} bytes`);
     await silent(tab);
   },
 
