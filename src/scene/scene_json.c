@@ -138,10 +138,15 @@ static json_t *species_json(const gg_scene *scene)
 /* The text of a change is a number, a word, or a formula in quotes. */
 static json_t *changes_json(const gg_scene *scene)
 {
+  static const gg_field number = {.type = GG_FIELD_NUMBER};
   json_t *list = json_array();
   for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
-    json_t *value = json_loads(c->value, JSON_DECODE_ANY, NULL);
-    json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, value ? value : json_string(c->value)));
+    char *end;
+    const double x = strtod(c->value, &end);
+    json_t *value = !*end              ? number_json(&number, x)
+                    : *c->value == '"' ? gg_io_json_made(json_loads(c->value, JSON_DECODE_ANY, NULL))
+                                       : json_string(c->value);
+    json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, value));
   }
   return list;
 }

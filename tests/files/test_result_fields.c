@@ -108,8 +108,9 @@ static const field curve_fields[] = {
 };
 static const field frame_fields[] = {
     FIELD(gg_frame, time, NUMBER, KEPT, NULL),       FIELD(gg_frame, step, COUNT, KEPT, NULL),
-    FIELD(gg_frame, n, OTHER, BY_HAND, NULL),        FIELD(gg_frame, position, OTHER, BY_HAND, NULL),
-    FIELD(gg_frame, velocity, OTHER, BY_HAND, NULL), FIELD(gg_frame, spin, OTHER, BY_HAND, NULL),
+    FIELD(gg_frame, n, OTHER, BY_HAND, NULL),        FIELD(gg_frame, tilt, OTHER, BY_HAND, NULL),
+    FIELD(gg_frame, position, OTHER, BY_HAND, NULL), FIELD(gg_frame, velocity, OTHER, BY_HAND, NULL),
+    FIELD(gg_frame, spin, OTHER, BY_HAND, NULL),     FIELD(gg_frame, image, OTHER, BY_HAND, NULL),
     FIELD(gg_frame, species, OTHER, BY_HAND, NULL),  FIELD(gg_frame, id, OTHER, BY_HAND, NULL), /* rows are in order */
 };
 static const field history_fields[] = {
