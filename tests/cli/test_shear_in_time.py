@@ -211,7 +211,7 @@ def test_errors():
             (usf + 'shear_rate: "sin(x)", run: {duration: 5}}', "neither a number nor a formula of t: 'sin(x)' at character 5"),
             (usf + 'shear_rate: "sin(t)"}', "a formula needs flow: usf and run.duration"),
             (usf + 'shear_rate: "0*t", run: {duration: 5}}', "is 0 all the time"),
-            (usf + 'shear_rate: "1/t", run: {duration: 5}}', "infinite or no number at some time"),
+            (usf + 'shear_rate: "1/t", run: {duration: 5}}', "infinite or not a number at some time"),
             (usf + 'shear_rate: "sin(t)", shear_period: 2, run: {duration: 5}}', "run.duration 5 has 2.5 of them"),
             (usf + 'shear_rate: "sin(t)", run: {duration: 5}, protocol: [{at: 1, shear_rate: 2}]}', "shear_rate is a formula"),
             (usf + "run: {duration: 5}, protocol: [{at: 1, shear_rate: 1e-5}]}", "not allowed on the way from 1; allowed"),
