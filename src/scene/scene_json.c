@@ -143,9 +143,9 @@ static json_t *changes_json(const gg_scene *scene)
   for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
     char *end;
     const double x = strtod(c->value, &end);
-    json_t *value = !*end              ? number_json(&number, x)
-                    : *c->value == '"' ? gg_io_json_made(json_loads(c->value, JSON_DECODE_ANY, NULL))
-                                       : json_string(c->value);
+    json_t *value = !*end                             ? number_json(&number, x)
+                    : strncmp(c->value, "\"", 1) == 0 ? gg_io_json_made(json_loads(c->value, JSON_DECODE_ANY, NULL))
+                                                      : json_string(c->value);
     json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, value));
   }
   return list;
