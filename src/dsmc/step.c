@@ -50,16 +50,15 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   /* Symmetric splitting: the second half mirrors the first. */
   if (d->heat == GG_UNHEATED && !d->model.turns) {
     gg_dsmc_collide(d, dt, strain, span, d->model.n_species == 1 ? GG_DSMC_FORWARD : GG_DSMC_SYMMETRIC);
-    d->now.lost = 0; /* without a thermostat it would only grow, or change by units */
-    return;
+  } else {
+    double lost = d->now.lost;
+    gg_dsmc_collide(d, 0.5 * dt, strain, 0.5 * span, GG_DSMC_FORWARD);
+    heat(d, dt, strain + 0.5 * span, d->now.lost - lost);
+    if (d->model.turns && d->heat != GG_HEAT_BATHES) gg_dsmc_ensemble_turn(&d->ensemble, d->model.torque, dt);
+    d->interval_begin += 0.5 * dt;
+    gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
   }
-  double lost = d->now.lost;
-  gg_dsmc_collide(d, 0.5 * dt, strain, 0.5 * span, GG_DSMC_FORWARD);
-  heat(d, dt, strain + 0.5 * span, d->now.lost - lost);
-  if (d->model.turns && d->heat != GG_HEAT_BATHES) gg_dsmc_ensemble_turn(&d->ensemble, d->model.torque, dt);
-  d->interval_begin += 0.5 * dt;
-  gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
-  if (d->heat == GG_UNHEATED) d->now.lost = 0;
+  if (d->heat == GG_UNHEATED) d->now.lost = 0; /* without a thermostat it would only grow, or change by units */
 }
 
 /* Length of the next step, if `left` time and `wanted` collisions remain. Steps of the length given by the scene are

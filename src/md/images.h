@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Unwrapped positions: engines may count the images of the box that each grain enters. The unwrapped position, which is
- * continuous in time, is r + (x L_x + y S, y L_y, z L_z) with the counts x, y, z and the total displacement S of the
- * image above (box.h), which is the offset D and `image_turns` edges. A step into the image above adds 1 to y, and the
- * edges in S come off x. */
+/* Unwrapped positions: engines may count the images of the box that each grain enters. With the counts x, y, z the
+ * unwrapped position r + (x L_x + y S, y L_y, z L_z) is continuous in time. S is the total displacement of the image
+ * above (box.h): the offset D and `image_turns` edges. A step into the image above adds 1 to y, and subtracts the edges
+ * in S from x. */
 #ifndef GG_MD_IMAGES_H
 #define GG_MD_IMAGES_H
 

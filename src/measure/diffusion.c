@@ -288,11 +288,6 @@ static double impulse(const gg_model *m, int i, int j)
          m->mass[j] / (m->mass[i] + m->mass[j]);
 }
 
-static bool has_theory(const gg_model *m)
-{
-  return m->rule == GG_SMOOTH && !m->law.name && !gg_model_is_injected(m);
-}
-
 /* First Sonine approximation for smooth grains without shear: D = <C_a^2>/rate, of the rate at which a grain loses
  * momentum to Maxwellians of the measured temperatures and to a bath (tracers: J.W. Dufty & V. Garzo, J. Stat. Phys.
  * 105 (2001) 723; elastic: Chapman & Cowling). In a cooling gas half the measured cooling rate less: that of
@@ -314,8 +309,8 @@ static double positive_part(double mean, double deviation)
   return deviation * exp(-x * x / 2) / sqrt(2 * M_PI) + mean * erfc(-x * M_SQRT1_2) / 2;
 }
 
-/* Friction tensor of a grain in the sheared gas: its momentum changes at the rate -R_il u_l where all grains of its
- * species move on at u, of Gaussians with the measured covariances,
+/* Friction tensor R of a grain in the sheared gas. Where all grains of its species drift at u, its momentum changes at
+ * the rate -R_il u_l. Velocities are Gaussian with the measured covariances:
  *     R_il = sum_j impulse_ij int dk k_i k_l 2 <x Theta(x)>,   x = (C_1 - C_2).k - gamma sigma_ij k_x k_y
  * over all directions k: midpoints of squares in cos theta and the azimuth about z. Components xx, yy, zz, xy. */
 static void friction(const gg_model *m, int i, const double *bins, double R[4])
@@ -420,9 +415,9 @@ static void put_component(const diffusion *d, int species, int a, const double *
                                    coefficient);
   }
   const double *bins = bin - species * GG_LAGS * GG_LAG_WIDTH;
-  if (has_theory(m) && !gg_model_is_sheared(m))
+  if (gg_displacement_has_theory(m) && !gg_model_is_sheared(m))
     gg_measure_curve_put_setting(c, "diffusion_first_sonine", first_sonine(m, species, bins), coefficient);
-  if (has_theory(m) && gg_model_is_sheared(m) && !m->cuts_steps) /* steady */
+  if (gg_displacement_has_theory(m) && gg_model_is_sheared(m) && !m->cuts_steps) /* steady */
     gg_measure_curve_put_setting(c, "diffusion_first_sonine", sheared_sonine(m, species, a, bins), coefficient);
   if (!of->displacement) return;
   snprintf(name, sizeof name, "displacement_%s%s", of->displacement, tail);

@@ -6,16 +6,16 @@
 #include "measure/diffusion_lags.h"
 #include "measure/pairs.h"
 
-/* Without positions, in a run that is followed in time, whose intervals may have any length, or if a fast grain may
+/* Without positions; in a run that is followed in time, whose intervals may have any length; or if a fast grain may
  * travel half the shortest edge between two snapshots. */
 bool gg_measure_displacement_follows_flights(const gg_model *m)
 {
   if (m->homogeneous || m->cuts_steps) return true;
-  double lightest = m->mass[0], fast, way;
+  double lightest = m->mass[0], fast, path;
   for (int k = 1; k < m->n_species; k++) lightest = fmin(lightest, m->mass[k]);
   fast = 5 / sqrt(lightest);
-  way = fast / (GG_LAG_SNAPSHOTS / 2.0 * gg_common_model_collision_rate(m, 1));
-  return way > 0.5 * fmin(m->box[0], fmin(m->box[1], m->box[2]));
+  path = fast / (GG_LAG_SNAPSHOTS / 2.0 * gg_common_model_collision_rate(m, 1));
+  return path > 0.5 * fmin(m->box[0], fmin(m->box[1], m->box[2]));
 }
 
 size_t gg_measure_displacement_bytes(const gg_model *m)
@@ -48,16 +48,16 @@ bool gg_measure_displacement_is_valid(const gg_displacement *d)
   return true;
 }
 
-/* Displacement since the snapshot `dt` ago: of all images of the new place the one nearest to `way`. */
-static gg_vec displacement(const gg_displacement *d, const gg_images *b, gg_vec from, gg_vec to, gg_vec way, double dt)
+/* Displacement since the snapshot `dt` ago: of all images of the new place the one nearest to `path`. */
+static gg_vec displacement(const gg_displacement *d, const gg_images *b, gg_vec from, gg_vec to, gg_vec path, double dt)
 {
   double rate = d->model->shear_rate;
   gg_vec move = gg_sub(to, from);
-  double layers = gg_round_half((move.y - way.y) * b->inverse[1]);
+  double layers = gg_round_half((move.y - path.y) * b->inverse[1]);
   move.y -= layers * b->edge[1];
   move.x -= layers * b->offset + rate * (from.y + 0.5 * move.y - 0.5 * b->edge[1]) * dt;
-  move.x -= b->edge[0] * gg_round_half((move.x - way.x) * b->inverse[0]);
-  move.z -= b->edge[2] * gg_round_half((move.z - way.z) * b->inverse[2]);
+  move.x -= b->edge[0] * gg_round_half((move.x - path.x) * b->inverse[0]);
+  move.z -= b->edge[2] * gg_round_half((move.z - path.z) * b->inverse[2]);
   return move;
 }
 

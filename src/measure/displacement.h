@@ -3,8 +3,9 @@
  * C, without the displacement by the flow along x, for which the mean of the grain's heights at two snapshots counts.
  *
  * The displacement of a grain between two snapshots leads to one of the images of its new place. The image is
- * selected by the velocities at both snapshots, or, if free paths are so long beside the box that the grain may have
- * crossed half of it and collided, by the velocities of all its flights. The Monte Carlo ensemble has no positions:
+ * selected by the velocities at both snapshots. If the grain may have crossed half of the box and collided in between,
+ * it is selected by the velocities of all flights: where free paths are long beside the box, and in runs that are
+ * followed in time, whose intervals may have any length. The Monte Carlo ensemble has no positions:
  * there the flights are the displacement, and grains keep theirs in the ensemble, as every collision is observed. */
 #ifndef GG_DISPLACEMENT_H
 #define GG_DISPLACEMENT_H
@@ -43,5 +44,11 @@ double gg_measure_displacement_temperature(const gg_displacement *d);
 
 /* The integral of v dt over a time in which v falls from `before` to `now`, by Haff's law v = before/(1 + t/tau). */
 double gg_measure_displacement_path(double before, double now, double time);
+
+/* True if first Sonine approximations of diffusion describe the grains: smooth, with constant e, without kicks. */
+static inline bool gg_displacement_has_theory(const gg_model *m)
+{
+  return m->rule == GG_SMOOTH && !gg_model_has_speed(m) && !gg_model_is_injected(m);
+}
 
 #endif

@@ -61,7 +61,7 @@ void gg_measure_sampler_restart(gg_sampler *s, gg_engine *engine);
 void gg_measure_sampler_change(gg_sampler *s, gg_engine *engine, bool averaging);
 
 /* Before each interval of the window: the engine reports collisions to the observables that need them, always or in
- * bursts. `within`: the interval was interrupted, and goes on. */
+ * bursts. `within`: the interval was interrupted, and continues. */
 gg_status gg_measure_sampler_observe(gg_sampler *s, gg_engine *engine, uint64_t samples, bool within, gg_error *err);
 /* Numbers of samples: length of a burst; first: period of the first bursts; apart: period from sample `regular_from` of
  * the window on. */

@@ -11,7 +11,7 @@
 enum { WAITS = 8 };
 static const double waits[WAITS] = {0, 5, 10, 20, 40, 80, 160, 320};
 
-/* Lags in collisions per grain: FINE steps of STEP, then LOG an octave, up to 4096. */
+/* Lags in collisions per grain: FINE steps of STEP, then LOG an octave, up to almost 4000. */
 enum { FINE = 16, LOG = 4, OCTAVES = 10, LAGS = FINE + LOG * OCTAVES };
 #define STEP 0.25
 
@@ -234,7 +234,7 @@ static gg_curve *put(const course *of, const char *what, const char *symbol, boo
  * (1 + e)^2/6 a collision of Maxwellians, friction less half the cooling rate. */
 static bool has_theory(const gg_model *m)
 {
-  return m->n_species == 1 && m->rule == GG_SMOOTH && !gg_model_has_speed(m) && !gg_model_is_injected(m);
+  return m->n_species == 1 && gg_displacement_has_theory(m);
 }
 
 static double decay(const gg_model *m)
