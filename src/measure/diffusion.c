@@ -309,8 +309,8 @@ static double positive_part(double mean, double deviation)
   return deviation * exp(-x * x / 2) / sqrt(2 * M_PI) + mean * erfc(-x * M_SQRT1_2) / 2;
 }
 
-/* Friction tensor R of a grain in the sheared gas. Where all grains of its species drift at u, its momentum changes at
- * the rate -R_il u_l. Velocities are Gaussian with the measured covariances:
+/* Friction tensor R of a grain in the sheared gas. If all grains of its species drift at u, its momentum changes at the
+ * rate -R_il u_l. Velocities are Gaussian with the measured covariances:
  *     R_il = sum_j impulse_ij int dk k_i k_l 2 <x Theta(x)>,   x = (C_1 - C_2).k - gamma sigma_ij k_x k_y
  * over all directions k: midpoints of squares in cos theta and the azimuth about z. Components xx, yy, zz, xy. */
 static void friction(const gg_model *m, int i, const double *bins, double R[4])
