@@ -2,8 +2,7 @@
 /* Guard of a handle of the public interface, in use by one call that changes it, or by any number that only read it.
  *
  * A call that comes in between, from a callback of the call in progress or from another thread, is an error and not
- * a
- * crash. A handle that is freed in the meantime goes when the last call that uses it returns. */
+ * a crash. A handle that is freed in the meantime goes when the last call that uses it returns. */
 #ifndef GG_BUSY_H
 #define GG_BUSY_H
 
