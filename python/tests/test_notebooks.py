@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The notebooks and the page docs/howto/python.md run, and their statements hold."""
+"""The notebooks and the page docs/howto/python.md run, and their statements hold. Without NIGHTLY some have fewer points
+between the ends, where nothing is asserted."""
 import glob
 import json
 import math
@@ -13,6 +14,9 @@ import pytest
 import graingas as gg
 from conftest import SOURCE
 
+SHORTER = {"friction": {"mus = [0.01, 0.03, 0.1, 0.3, 1, 3, 10]": "mus = [0.01, 0.1, 10]"},
+           "suspension": {"np.linspace(0.13, 0.21, 17)": "np.linspace(0.145, 0.195, 11)"},
+           "three_questions": {"beta=[-0.9, -0.3, 0.3, 0.9]": "beta=[-0.9, 0.9]", "phi=[0.1, 0.3, 0.5]": "phi=[0.1, 0.5]"}}
 NOTEBOOKS = {os.path.basename(path)[:-6]: path for path in glob.glob(os.path.join(SOURCE, "python", "notebooks", "*.ipynb"))}
 
 
@@ -21,7 +25,11 @@ def cells(name):
         book = json.load(file)
     code = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
     assert all(not cell["outputs"] for cell in code), "clear the outputs before a commit"
-    return ["".join(cell["source"]) for cell in code]
+    parts = ["".join(cell["source"]) for cell in code]
+    for long, short in SHORTER.get(name, {}).items() if "NIGHTLY" not in os.environ else ():
+        assert sum(long in part for part in parts) == 1, long
+        parts = [part.replace(long, short) for part in parts]
+    return parts
 
 
 def execute(parts):
