@@ -118,9 +118,8 @@ typedef struct gg_dsmc_channel {
   double low[GG_MAX_SPECIES], high[GG_MAX_SPECIES], radius[GG_MAX_SPECIES]; /* heights of centres */
   double reach[GG_PAIRS]; /* distance of centres at contact; 0 in the Boltzmann limit */
   bool periodic;          /* along y, without walls */
-  gg_heat heat;           /* in a periodic channel; else GG_UNHEATED */
-  double noise;           /* of GG_HEAT_KICKS */
-  double kept, loss_rate; /* GG_HEAT_SCALES: energy of the centres, and what the last step lost of it per time */
+  bool heated;            /* by a thermostat, in a periodic channel */
+  double kept, loss_rate; /* Gaussian thermostat: energy of the centres, and what the last step lost of it per time */
   gg_vec gravity;
   gg_rule wall_rule; /* rule of contacts with walls; without spins a wall acts on the centre */
   gg_dsmc_channel_cells cells;
@@ -169,6 +168,7 @@ void gg_dsmc_channel_fly_grain(const gg_dsmc_channel *d, double dt, gg_rng *rng,
                                gg_dsmc_channel_contacts *all);
 
 /* channel_heat.c: the thermostat of a periodic channel acts for half of a step, before and after its collisions. */
+bool gg_dsmc_channel_is_heated(const gg_model *model);
 void gg_dsmc_channel_heat_before(gg_dsmc_channel *d, double dt);
 void gg_dsmc_channel_heat_after(gg_dsmc_channel *d, double dt);
 

@@ -29,7 +29,7 @@ static gg_status transfer_all(gg_dsmc_channel *d, direction w, gg_error *err)
   const gg_dsmc_channel_cells *c = &d->cells;
   const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, cells = (size_t)c->n;
   GG_TRY(transfer(w, "dsmc/gap", GG_ITEM_U8, &d->now, sizeof d->now, err));
-  if (d->heat == GG_HEAT_SCALES) {
+  if (d->heated && gg_common_keeps_energy(&d->model)) {
     GG_TRY(transfer(w, "dsmc/kept", GG_ITEM_F64, &d->kept, 1, err));
     GG_TRY(transfer(w, "dsmc/loss_rate", GG_ITEM_F64, &d->loss_rate, 1, err));
   }
@@ -69,7 +69,7 @@ static bool is_state(const gg_dsmc_channel *d)
          gg_dsmc_is_between(s->all_rate, 0, 1e300) && gg_dsmc_is_between(s->time, -1e300, 1e300) &&
          gg_dsmc_is_between(s->unmeasured, 0, 1e300) && gg_dsmc_is_between(s->overfilled, 0, 1) &&
          gg_dsmc_is_between(s->advance.gone, 0, 1e300) && s->advance.asked >= 0 && s->keeps_sums <= 1 &&
-         (d->heat != GG_HEAT_SCALES ||
+         (!d->heated || !gg_common_keeps_energy(&d->model) ||
           (gg_dsmc_is_between(d->kept, 1e-300, 1e300) && gg_dsmc_is_between(d->loss_rate, 0, 1e300)));
 }
 

@@ -31,9 +31,9 @@ static double step(gg_dsmc_channel *d, double left, double wanted)
   gg_dsmc_channel_fly(d, s->pending + 0.5 * dt);
   gg_dsmc_channel_sort(d);
   count(&d->cells, d->model.n_species, dt);
-  if (d->heat != GG_UNHEATED) gg_dsmc_channel_heat_before(d, dt);
+  if (d->heated) gg_dsmc_channel_heat_before(d, dt);
   d->collide(d, dt);
-  if (d->heat != GG_UNHEATED) gg_dsmc_channel_heat_after(d, dt);
+  if (d->heated) gg_dsmc_channel_heat_after(d, dt);
   s->pending = 0.5 * dt;
   s->time += dt;
   s->unmeasured += dt;
@@ -194,7 +194,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   gg_dsmc_channel *d = channel_of(engine);
   gg_dsmc_channel_state *s = &d->now;
   const double factor = ldexp(1, power);
-  if (!d->periodic || d->heat != GG_UNHEATED)
+  if (!d->periodic || d->heated)
     return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled between walls or with a thermostat");
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
     d->grains.at[i].c = gg_scale(factor, d->grains.at[i].c);

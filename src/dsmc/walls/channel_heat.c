@@ -71,15 +71,20 @@ static double kick(heating *h)
   return all.energy - 0.5 * gg_dot(all.momentum, h->drift);
 }
 
+bool gg_dsmc_channel_is_heated(const gg_model *m)
+{
+  return gg_common_heat_of(m) != GG_UNHEATED;
+}
+
 /* White noise or a bath for a time. */
 static void bathe(gg_dsmc_channel *d, double dt)
 {
   const gg_bath *b = &d->model.bath;
+  const double noise = gg_common_thermostat_kicks(&d->model);
   heating h = {.d = d, .scale = 1};
   for (int i = 0; i < d->model.n_species; i++) {
-    const bool bath = d->heat == GG_HEAT_BATHES;
-    const gg_relaxation r = gg_common_relaxation(bath ? b->drag[i] : 0, dt);
-    h.factor[i] = r.decay, h.size[i] = sqrt((bath ? b->noise[i] : d->noise) * r.spread);
+    const gg_relaxation r = gg_common_relaxation(b->drag[i], dt); /* 0 without a bath */
+    h.factor[i] = r.decay, h.size[i] = sqrt((b->on ? b->noise[i] : noise) * r.spread);
   }
   kick(&h);
   for_parts(&h, scale_part);
@@ -87,7 +92,7 @@ static void bathe(gg_dsmc_channel *d, double dt)
 
 void gg_dsmc_channel_heat_before(gg_dsmc_channel *d, double dt)
 {
-  if (d->heat != GG_HEAT_SCALES) {
+  if (!gg_common_keeps_energy(&d->model)) {
     bathe(d, 0.5 * dt);
     return;
   }
@@ -97,7 +102,7 @@ void gg_dsmc_channel_heat_before(gg_dsmc_channel *d, double dt)
 
 void gg_dsmc_channel_heat_after(gg_dsmc_channel *d, double dt)
 {
-  if (d->heat != GG_HEAT_SCALES) {
+  if (!gg_common_keeps_energy(&d->model)) {
     bathe(d, 0.5 * dt);
     return;
   }

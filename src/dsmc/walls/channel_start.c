@@ -64,8 +64,7 @@ gg_status gg_dsmc_channel_allocate(const gg_model *model, gg_dsmc_channel **made
   const bool spins = model->rule != GG_SMOOTH;
   d->wall_rule = spins ? model->rule : model->wall_rule;
   d->periodic = model->wave > 0;
-  d->heat = d->periodic ? gg_common_heat_of(model) : GG_UNHEATED;
-  d->noise = gg_common_thermostat_kicks(model);
+  d->heated = d->periodic && gg_dsmc_channel_is_heated(model);
   set_heights(d);
   const size_t n = (size_t)model->n;
   gg_status status = allocate_grains(&d->grains, n, spins, err);
