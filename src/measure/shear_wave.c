@@ -5,9 +5,10 @@
  *
  *     da/ds = -q a,   eta* = q rho nu_0(1)/(n k^2).
  *
- * A thermostat acts on the wave as on every velocity. With the energy K of the centres, a Gaussian one multiplies them
- * in a time dt by 1 + (loss + dK)/(2K), and the drag of a bath by 1 - drag dt. The amplitude b without this factor has
- * the equation above.
+ * The Gaussian thermostat acts on the wave as on every velocity. With the energy K of the centres it multiplies them in
+ * a time dt by 1 + (loss + dK)/(2K). Without this factor the gas is one that cools freely, in a time of its own, and
+ * the amplitude b obeys the equation above with the viscosity of the cooling gas. (In flow: small_shear the thermostat
+ * acts on velocities about the flow: there eta* is another coefficient.) Drag would change the stress, too.
  *
  * Momentum that grains exchange at random disturbs b by white noise. The estimate with the least error is that of
  * least squares in the increments of b, whose weights w are proportional to b itself. An estimate of q gives them:
@@ -56,6 +57,7 @@ static const char *refuses(const gg_model *m)
   if (!(m->wave > 0)) return "there is no wave; give start.wave and run.duration";
   if (m->n_species > 1 || m->rule != GG_SMOOTH || gg_model_has_speed(m))
     return "measured of one species of smooth grains with a constant e";
+  if (m->bath.on && m->bath.drag[0] != 0) return "drag acts on the wave, too";
   return NULL;
 }
 
@@ -117,7 +119,6 @@ static double expected_decay(const gg_model *m)
 static double growth_of(const gg_model *m, const gg_interval *in, double before, double now)
 {
   const double middle = (before + now) / 2;
-  if (m->bath.on) return -m->bath.drag[0] * in->elapsed;
   if (!gg_common_keeps_energy(m)) return 0;
   return (2 * in->transfer->loss[GG_11] + now - before) / (2 * middle);
 }
@@ -230,7 +231,7 @@ static gg_curve *put_curve(const decaying *d, const char *name, const char *symb
   return c;
 }
 
-/* Fraction by which the decay rate of a dilute gas is higher than at k = 0, over (k l)^2: Grad's equations of 13
+/* Fraction by which the decay rate of a dilute elastic gas is higher than at k = 0, over (k l)^2: Grad's equations of 13
  * moments, with the relaxation time tau of the stress, give 2/5 tau^2 T k^2/m. */
 #define CORRECTION 0.25
 

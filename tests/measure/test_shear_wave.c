@@ -12,14 +12,13 @@
 enum { PLACES = 500, GRAINS = 2 * PLACES, STEPS = 100 };
 #define ETA 1.7
 
-enum planted { CONSTANT, COOLING, SCALED, BATHED, N_PLANTED };
+enum planted { CONSTANT, COOLING, SCALED, N_PLANTED };
 
 static gg_model planted_model(enum planted kind)
 {
   gg_scene s = gg_scene_defaults();
   s.flow = kind == CONSTANT ? GG_EQUILIBRIUM : kind == COOLING ? GG_HCS : GG_HSS;
-  s.thermostat = kind == SCALED ? GG_GAUSSIAN : kind == BATHED ? GG_BATH : GG_NO_THERMOSTAT;
-  s.bath.drag = 0.02;
+  s.thermostat = kind == SCALED ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = kind == CONSTANT ? 1 : 0.9;
   s.phi = 0.1, s.particles = GRAINS, s.start.wave = 0.3, s.run.duration = 1;
   gg_model m;
@@ -67,7 +66,7 @@ static double plant(enum planted kind, const gg_model *m, gg_curves *list)
     const double t = kind == COOLING ? tau * expm1(log(21) * j / STEPS) : end * j / STEPS;
     const double T = kind == COOLING ? T0 / ((1 + t / tau) * (1 + t / tau)) : T0;
     const double s = kind == COOLING ? tau * sqrt(T0) * log1p(t / tau) : t * sqrt(T0);
-    const double growth = kind == SCALED ? 0.01 * t : kind == BATHED ? -m->bath.drag[0] * t : 0;
+    const double growth = kind == SCALED ? 0.01 * t : 0;
     const double a = 0.3 * exp(growth - q * s), energy = GRAINS * (3 * T + a * a / 2), step = t - gone;
     const double loss = kind == SCALED ? (energy + before) / 2 * 0.01 * step - (energy - before) / 2 : 0;
     const double factor = kind == COOLING && j % 30 == 29 ? 4 : 1;
@@ -175,6 +174,9 @@ static void other_gases_have_none(void **state)
   s.start.wave = 0.3, s.collision.beta[0] = 0;
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_non_null(strstr(gg_measure_shear_wave.refuses(&m), "smooth"));
+  s.collision.beta[0] = -1, s.flow = GG_HSS, s.thermostat = GG_BATH;
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_non_null(strstr(gg_measure_shear_wave.refuses(&m), "drag"));
   s.run.duration = GG_AUTO; /* a mean over time has no start */
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_true(m.wave == 0);
