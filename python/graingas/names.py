@@ -100,6 +100,7 @@ class StartKeys:
     rotational_temperature: Union[float, str]  # initial rotational temperature; auto: near the steady state
     a2: float  # initial fourth cumulant of the velocities: C^2 has the gamma distribution of shape 0.6/(0.4 + a2)
     spin: Union[float, str]  # initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0
+    wave: float  # amplitude of a transverse wave u_x = wave v_0 sin(2 pi y/L_y), v_0 = sqrt(2 T/m): shear_wave measures its decay; the box is then long enough along y, unless aspect is given
     positions: str  # initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, without overlaps; its path is relative to the scene's file, and only a start reads it
 
 
@@ -151,6 +152,7 @@ class SceneKeys:
     rotational_temperature: Union[float, str]  # initial rotational temperature; auto: near the steady state
     a2: float  # initial fourth cumulant of the velocities: C^2 has the gamma distribution of shape 0.6/(0.4 + a2)
     spin: Union[float, str]  # initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0
+    wave: float  # amplitude of a transverse wave u_x = wave v_0 sin(2 pi y/L_y), v_0 = sqrt(2 T/m): shear_wave measures its decay; the box is then long enough along y, unless aspect is given
     positions: str  # initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, without overlaps; its path is relative to the scene's file, and only a start reads it
     normal_kick: Union[float, dict]  # D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D
     tangential_kick: Union[float, dict]  # D_t of kicks at contact: the surface of grain 1 gets 2 D_t k x z against that of grain 2, k from 1 to 2; above 0 the pair turns about z by the right hand
@@ -215,6 +217,7 @@ class KeyWords(TypedDict, total=False):
     rotational_temperature: Any
     a2: Any
     spin: Any
+    wave: Any
     positions: Any
     normal_kick: Any
     tangential_kick: Any

@@ -230,7 +230,7 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
   double answer = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
   if (value) *value = isfinite(answer) ? answer : NAN;
-  const bool comparable = against && isfinite(answer) && !gg_scene_is_followed(c->scene);
+  const bool comparable = against && isfinite(answer) && gg_run_has_theories(c, q);
   if (deviation) *deviation = comparable ? gg_run_deviation(&against->value[q], answer) : NAN;
   return GG_OK;
 }

@@ -136,7 +136,7 @@ static void define_word(const gg_entry *w, const char *of, int most)
   line("thermostats", w->allowed, most);
 }
 
-/* An observable: the flows in which each engine has it (rough grains have every observable that others have). */
+/* An observable: the flows in which each engine has it, of any grains. */
 static void define_observable(const gg_entry *o, int most)
 {
   json_t *all = gg_cli_support(), *one;
@@ -144,11 +144,13 @@ static void define_observable(const gg_entry *o, int most)
   size_t i;
   json_array_foreach(all, i, one)
   {
-    const char *flow, *engine, *grains;
+    const char *flow, *engine;
     json_t *missing;
-    json_unpack(one, "{s:s, s:s, s:s, s:o}", "flow", &flow, "engine", &engine, "grains", &grains, "missing", &missing);
+    json_unpack(one, "{s:s, s:s, s:o}", "flow", &flow, "engine", &engine, "missing", &missing);
     char *text = strcmp(engine, "md") == 0 ? md : dsmc;
-    if (strcmp(grains, "rough") == 0 && !json_object_get(missing, o->name))
+    const char *last = strrchr(text, ' ');
+    if (json_object_get(missing, "scene") || json_object_get(missing, o->name)) continue;
+    if (strcmp(last ? last + 1 : text, flow) != 0)
       snprintf(text + strlen(text), sizeof md - strlen(text), "%s%s", *text ? ", " : "", flow);
   }
   json_decref(all);

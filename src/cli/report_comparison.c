@@ -48,10 +48,17 @@ static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_compariso
   return false;
 }
 
-/* True if values are of one time, and those of theories of the steady state. */
+/* True if values are of one time, and most of those of theories of the steady state. */
 static bool is_in_time(const gg_comparison *c)
 {
   return reference(c) && gg_cli_is_followed(gg_comparison_scene(c));
+}
+
+/* The value of a theory in the table: of a gas that is followed in time only beside a value that is comparable. */
+static double shown_value(const gg_comparison *c, const char *theory, const char *quantity, double *deviation)
+{
+  const double value = value_of(c, theory, quantity, deviation);
+  return is_in_time(c) && isnan(*deviation) ? NAN : value;
 }
 
 /* Column of each theory; -1 for theories without a printed value. */
@@ -61,10 +68,12 @@ static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int col
   gg_theory_info theory;
   for (size_t i = 0; i < MOST_THEORIES; i++) {
     gg_comparison_row row;
+    double deviation;
     column[i] = -1;
-    if (is_in_time(c) || gg_comparison_theory(c, i, &theory, NULL) != GG_OK) continue;
+    if (gg_comparison_theory(c, i, &theory, NULL) != GG_OK) continue;
     for (size_t k = 0; column[i] < 0 && next_shown(c, all, &k, &row);)
-      if (!isnan(value_of(c, theory.name, row.name, NULL))) column[i] = gg_cli_table_column(t, theory.name, true), n++;
+      if (!isnan(shown_value(c, theory.name, row.name, &deviation)))
+        column[i] = gg_cli_table_column(t, theory.name, true), n++;
   }
   return n;
 }
@@ -101,7 +110,7 @@ static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
     snprintf(gg_cli_table_cell(t, at, 1), GG_TABLE_CELL, "%s", row.unit);
     if (reference(c)) put_engines(t, at, c, &row);
     for (size_t k = 0; k < MOST_THEORIES && gg_comparison_theory(c, k, &theory, NULL) == GG_OK; k++) {
-      double deviation = NAN, value = column[k] < 0 ? NAN : value_of(c, theory.name, row.name, &deviation);
+      double deviation = NAN, value = column[k] < 0 ? NAN : shown_value(c, theory.name, row.name, &deviation);
       if (!isnan(value)) gg_cli_format_answer(value, deviation, reference(c), gg_cli_table_cell(t, at, column[k]));
     }
   }

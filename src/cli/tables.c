@@ -56,6 +56,23 @@ static json_t *missing_in(const char *yaml)
   return all;
 }
 
+/* The same of a scene with these keys, or with a wave at its start, which one observable needs. */
+static json_t *missing_with(const char *keys)
+{
+  char yaml[300];
+  const char *name;
+  json_t *reason, *all, *with_wave;
+  void *next;
+  snprintf(yaml, sizeof yaml, "{%s}", keys);
+  all = missing_in(yaml);
+  snprintf(yaml, sizeof yaml, "{%s, start: {wave: 0.1}, run: {duration: 1}}", keys);
+  with_wave = missing_in(yaml);
+  json_object_foreach_safe(all, next, name, reason) if (!json_object_get(with_wave, "scene") &&
+                                                        !json_object_get(with_wave, name)) json_object_del(all, name);
+  json_decref(with_wave);
+  return all;
+}
+
 json_t *gg_cli_support(void)
 {
   static const char *const grains[][2] = {{"smooth", "collision: {}"},
@@ -68,9 +85,9 @@ json_t *gg_cli_support(void)
   for (size_t f = 0; gg_catalogue_entry(GG_CATALOGUE_FLOWS, f, NULL, &flow, NULL) == GG_OK; f++)
     for (size_t e = 0; gg_catalogue_entry(GG_CATALOGUE_ENGINES, e, NULL, &engine, NULL) == GG_OK; e++)
       for (size_t g = 0; g < sizeof grains / sizeof *grains; g++) {
-        snprintf(yaml, sizeof yaml, "{flow: %s, phi: 0.1, engine: %s, %s}", flow.name, engine.name, grains[g][1]);
+        snprintf(yaml, sizeof yaml, "flow: %s, phi: 0.1, engine: %s, %s", flow.name, engine.name, grains[g][1]);
         json_array_append_new(all, json_pack("{s:s, s:s, s:s, s:o}", "flow", flow.name, "engine", engine.name, "grains",
-                                             grains[g][0], "missing", missing_in(yaml)));
+                                             grains[g][0], "missing", missing_with(yaml)));
       }
   return all;
 }

@@ -54,7 +54,7 @@ typedef struct gg_model {
   gg_rule rule;         /* the most complex rule that any collision of the scene needs */
   bool boltzmann;       /* phi = 0 */
   bool ensemble;        /* Monte Carlo: the number of grains is that of samples, not part of the problem */
-  bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc without walls) */
+  bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc without walls or a wave) */
   bool elastic_grains;  /* every collision between grains conserves energy */
   bool elastic;         /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding); of walls
                          * those without a temperature count */
@@ -106,6 +106,7 @@ typedef struct gg_model {
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
   double a2_0;         /* fourth cumulant of the velocities that a run starts from */
+  double wave;         /* amplitude of a transverse wave that a run starts from, over v_0 (shear_wave.h); 0: none */
   bool lattice;        /* md: a run starts from a face-centred lattice */
   double spin0;        /* mean spin along z that a run starts from, angular velocity; see gg_model_starting_spin */
   double contact_time; /* of the contact-time rule, in units of gg_common_model_contact_unit; 0: off */

@@ -24,6 +24,7 @@
   X(SLAB_DISTRIBUTIONS, slab_distributions, "distributions of C and Omega by height between walls")                    \
   X(DIFFUSION, diffusion, "velocity autocorrelation, mean-square displacement, self-diffusion")                        \
   X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with flow: small_shear")         \
+  X(SHEAR_WAVE, shear_wave, "eta* from the decay of a transverse wave; comes with start.wave")                         \
   X(CONDUCTIVITY, conductivity, "kappa* and mu* of grains that cool or rest, by Green-Kubo integrals")                 \
   X(HELFAND, helfand, "viscosities and conductivity of elastic grains at rest, by Helfand moments")                    \
   X(COLLISIONS, collisions, "free paths, times between collisions, angles of contact")                                 \

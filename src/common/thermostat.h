@@ -33,6 +33,12 @@ static inline bool gg_common_is_kicked(const gg_model *model)
   return gg_common_thermostats[model->thermostat].heat == GG_HEAT_KICKS;
 }
 
+/* True if the thermostat multiplies velocities so that their energy is constant. */
+static inline bool gg_common_keeps_energy(const gg_model *model)
+{
+  return gg_common_heat_of(model) == GG_HEAT_SCALES;
+}
+
 /* The temperature at which a bath, shear that alone would keep `sheared` (0: none) and the collisions of Maxwellians at
  * ratio0 are in balance: the loss goes as T^(3/2), the work of shear as T^(1/2). Kicks at contact and torques add their
  * power. */

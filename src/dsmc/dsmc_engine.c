@@ -58,15 +58,9 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
-/* True of a model for the engine in a channel (walls/channel.h). Its engines have their own operations. */
-static bool is_walled(const gg_model *model)
-{
-  return gg_flow_is_walled(model->flow);
-}
-
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
 {
-  if (is_walled(model)) return gg_dsmc_channel_ops.create(model, seed, stream, engine, err);
+  if (gg_dsmc_channel_has(model)) return gg_dsmc_channel_ops.create(model, seed, stream, engine, err);
   GG_TRY(gg_dsmc_accepts(model, err));
   gg_dsmc *d;
   GG_TRY(gg_dsmc_allocate(model, &d, err));
@@ -131,7 +125,8 @@ static void measure(gg_dsmc *d)
 static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
                              const gg_engine *before, gg_engine **engine, gg_error *err)
 {
-  if (is_walled(model)) return gg_dsmc_channel_ops.create_with(model, seed, stream, grains, before, engine, err);
+  if (gg_dsmc_channel_has(model))
+    return gg_dsmc_channel_ops.create_with(model, seed, stream, grains, before, engine, err);
   GG_TRY(create(model, seed, stream, engine, err));
   gg_dsmc *d = dsmc_of(*engine);
   take_grains(&d->ensemble, grains, model->n);
@@ -285,17 +280,17 @@ static gg_status shear(gg_engine *engine, double rate, gg_error *err)
 
 static gg_status accepts(const gg_model *model, gg_error *err)
 {
-  return (is_walled(model) ? gg_dsmc_channel_accepts : gg_dsmc_accepts)(model, err);
+  return (gg_dsmc_channel_has(model) ? gg_dsmc_channel_accepts : gg_dsmc_accepts)(model, err);
 }
 
 static double bytes(const gg_model *model)
 {
-  return (is_walled(model) ? gg_dsmc_channel_bytes : gg_dsmc_bytes)(model);
+  return (gg_dsmc_channel_has(model) ? gg_dsmc_channel_bytes : gg_dsmc_bytes)(model);
 }
 
 static gg_status restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
 {
-  if (is_walled(model)) return gg_dsmc_channel_ops.restore(model, archive, engine, err);
+  if (gg_dsmc_channel_has(model)) return gg_dsmc_channel_ops.restore(model, archive, engine, err);
   GG_TRY(gg_dsmc_restore(model, archive, engine, err));
   (*engine)->ops = &gg_dsmc_ops;
   return GG_OK;
@@ -303,7 +298,7 @@ static gg_status restore(const gg_model *model, const gg_archive *archive, gg_en
 
 static void describe(const gg_model *model, void (*line)(void *context, const char *text), void *context)
 {
-  (is_walled(model) ? gg_dsmc_channel_describe : gg_dsmc_describe)(model, line, context);
+  (gg_dsmc_channel_has(model) ? gg_dsmc_channel_describe : gg_dsmc_describe)(model, line, context);
 }
 
 const gg_engine_ops gg_dsmc_ops = {

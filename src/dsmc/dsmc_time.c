@@ -19,7 +19,7 @@ static double pace_of_pair(const gg_model *m, int i, int j)
 double gg_dsmc_nanoseconds(const gg_model *m)
 {
   double sum = 0, rates = 0;
-  if (m->walled) return m->rule == GG_SMOOTH ? 150 : 200;
+  if (m->walled || m->wave > 0) return m->rule == GG_SMOOTH ? 150 : 200;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       const int q = gg_pair(i, j);

@@ -288,14 +288,14 @@ json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *c)
 }
 
 /* theory/engine - 1 of every theory with an answer; left out where the engine has no mean, and
- * of a gas that is followed in time. */
+ * where the engine's value is that of a gas at one time. */
 static void put_deviations(json_t *json, const gg_comparison *c, int k, const gg_quantity_row *row, json_t *warnings)
 {
   const gg_result *engine = c->by_engine[k];
   json_t *all = json_object();
   char key[64];
   bool small = false;
-  for (int i = 0; i < c->n_theories && !gg_scene_is_followed(c->scene); i++) {
+  for (int i = 0; i < c->n_theories && gg_run_has_theories(c, row->quantity); i++) {
     double value = c->theory[i].answer.value[row->quantity];
     if (!c->theory[i].applies || !isfinite(value)) continue;
     double deviation = gg_run_deviation(&engine->value[row->quantity], value);

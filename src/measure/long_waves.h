@@ -18,10 +18,10 @@ typedef struct gg_long_waves {
   double matter_squares, squares[3];   /* sums of the grains' own squares: the expected values for random positions */
 } gg_long_waves;
 
-/* True if this model has them: a periodic box, no walls. */
+/* True if this model has them: a periodic box with positions along each axis, no walls. */
 static inline bool gg_measure_has_long_waves(const gg_model *m)
 {
-  return !m->homogeneous && !m->walled;
+  return !m->ensemble && !m->walled;
 }
 
 /* Add grains with positions; initially all sums are 0. */

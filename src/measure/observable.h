@@ -141,7 +141,9 @@ static inline const char *gg_measure_needs_positions(const gg_model *m)
 /* The gas is homogeneous: no walls. */
 static inline const char *gg_measure_needs_homogeneity(const gg_model *m)
 {
-  return gg_flow_is_walled(m->flow) ? "between walls the gas depends on the place; measure profiles" : NULL;
+  return gg_flow_is_walled(m->flow) ? "between walls the gas depends on the place; measure profiles"
+         : m->wave > 0              ? "the wave of start.wave depends on the place"
+                                    : NULL;
 }
 /* Positions and homogeneity. */
 static inline const char *gg_measure_needs_bulk(const gg_model *m)

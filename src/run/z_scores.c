@@ -13,11 +13,15 @@ double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
   return error > 0 ? (a->mean - b->mean) / error : NAN;
 }
 
-/* Solution of enskog_hermite with its numerical error; false where there is none, or in a gas that is followed in time,
- * which may be far from the state that theories describe. */
+bool gg_run_has_theories(const gg_comparison *c, gg_quantity q)
+{
+  return !gg_scene_is_followed(c->scene) || (gg_common_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE);
+}
+
+/* Solution of enskog_hermite with its numerical error; false where there is none. */
 static bool enskog_solution(const gg_comparison *c, gg_quantity q, gg_estimate *solution)
 {
-  if (gg_scene_is_followed(c->scene)) return false;
+  if (!gg_run_has_theories(c, q)) return false;
   for (int i = 0; i < c->n_theories; i++) {
     if (c->theory[i].theory != &gg_theory_enskog_hermite || !c->theory[i].applies) continue;
     double error = c->theory[i].answer.error[q];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deviations of molecular dynamics from the Enskog equation and of theories from both, with remarks on their causes.
- * A gas that is followed in time is compared with dsmc, not with theories of the steady state. */
+ * A gas that is followed in time is compared with dsmc, not with theories of the steady state, but for coefficients. */
 #ifndef GG_Z_SCORES_H
 #define GG_Z_SCORES_H
 
@@ -9,6 +9,10 @@
 
 /* (a - b) over their combined standard error; NaN where either is missing. */
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
+
+/* True if theories answer for a measured value: not where it is that of a gas at one time, which may be far from the
+ * state that theories describe. The viscosity of a wave is a coefficient. */
+bool gg_run_has_theories(const gg_comparison *comparison, gg_quantity q);
 
 /* An engine against Enskog's equation solved without random numbers (enskog_hermite); false where there is no
  * solution, or no mean and error of the engine. */

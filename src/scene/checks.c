@@ -7,6 +7,7 @@
 
 #include "common/collision.h"
 #include "common/contact_value.h"
+#include "common/portable_math.h"
 #include "common/thermostat.h"
 #include "scene/fields.h"
 
@@ -56,6 +57,19 @@ static void normalise_fractions(gg_scene *s)
   s->weights = total;
 }
 
+/* The box of a wave has so many mean free paths and diameters along y, or is a cube that has more: its decay is then
+ * within 0.5 % of that of an infinite wave (measure/shear_wave.c). */
+enum { PATHS_OF_WAVE = 45, DIAMETERS_OF_WAVE = 12 };
+
+static void lengthen_box(gg_scene *s)
+{
+  const double n = s->phi > 0 ? 6 * s->phi / M_PI : 1,
+               chi = s->phi > 0 ? gg_common_contact_value_of(s->contact_value, s->phi) : 1;
+  const double length = fmax(PATHS_OF_WAVE / (M_SQRT2 * M_PI * n * chi), s->phi > 0 ? DIAMETERS_OF_WAVE : 0),
+               edges = length / gg_root((double)s->particles / n, 3);
+  s->aspect[1] = fmin(fmax(edges * sqrt(edges), 1), 100);
+}
+
 /* Defaults that depend on the flow come from its row. */
 void gg_scene_fill_in(gg_scene *s)
 {
@@ -75,6 +89,8 @@ void gg_scene_fill_in(gg_scene *s)
   if (flow->wall_temperature[0] > 0 && !gg_scene_is_given(s, "walls.temperature"))
     memcpy(s->walls.temperature, flow->wall_temperature, sizeof s->walls.temperature);
   s->measure |= flow->measure;
+  if (gg_scene_wave(s) > 0) s->measure |= GG_MEASURE_SHEAR_WAVE;
+  if (gg_scene_wave(s) > 0 && !gg_scene_is_given(s, "aspect")) lengthen_box(s);
   /* Errors of a gas that is followed in time come from its replicas. */
   if (s->run.duration != GG_AUTO && !gg_scene_is_given(s, "run.replicas")) s->run.replicas = GG_REPLICAS_FOLLOWED;
 }
@@ -210,6 +226,9 @@ static gg_status check_start(const gg_scene *s, gg_error *err)
       return gg_base_fail(err, GG_BAD_INPUT, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
                           gg_flow_of(s->flow)->word, flows);
   }
+  if (s->start.wave > 0 && gg_flow_is_sheared(s->flow))
+    return gg_base_fail(err, GG_BAD_INPUT, "key 'start.wave': flow: %s is sheared; use flow: equilibrium, hcs or hss",
+                        gg_flow_of(s->flow)->word);
   return GG_OK;
 }
 
@@ -341,8 +360,8 @@ static const struct {
     [GG_IF_MD] = {"with engine: dsmc", NULL, "", "engine md"},
     [GG_IF_DSMC] = {"with engine: md", NULL, "", "engine dsmc"},
     [GG_IF_COUNTED] = {"with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
-                       "engine md; dsmc between walls, or above 5000"},
-    [GG_IF_BOXED] = {"with engine: dsmc, which has no box", NULL, "", "engine md, or walls"},
+                       "engine md; dsmc between walls or with start.wave, or above 5000"},
+    [GG_IF_BOXED] = {"with engine: dsmc, which has no box", NULL, "", "engine md, walls or start.wave"},
     [GG_IF_ONE_ENGINE] = {"in a comparison; graingas run keeps trajectories and logs", NULL, "", "graingas run"},
     [GG_IF_CONTACT_VALUE] =
         {"but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
@@ -402,7 +421,7 @@ static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
 {
   switch (condition) {
   case GG_IF_MD: return uses_md(s, uses);
-  case GG_IF_BOXED: return uses_md(s, uses) || gg_flow_is_walled(s->flow);
+  case GG_IF_BOXED: return uses_md(s, uses) || gg_flow_is_walled(s->flow) || gg_scene_wave(s) > 0;
   case GG_IF_DSMC: return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
   case GG_IF_COUNTED:
     return holds(GG_IF_BOXED, s, uses) || (s->dsmc.particles == 0 && s->particles > GG_LEAST_ENSEMBLE);

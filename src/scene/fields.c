@@ -148,6 +148,10 @@ const gg_field gg_scene_fields[] = {
     {"start.spin", GG_FIELD_NUMBER, AT(start.spin), -LARGE, LARGE, false, AUTO, .unit = "1/time",
      .doc = "initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0",
      .when = GG_BIT(GG_IF_STARTED) | GG_BIT(GG_IF_ROUGH)},
+    {"start.wave", GG_FIELD_NUMBER, AT(start.wave), 0, 1,
+     .doc = "amplitude of a transverse wave u_x = wave v_0 sin(2 pi y/L_y), v_0 = sqrt(2 T/m): shear_wave measures its "
+            "decay; the box is then long enough along y, unless aspect is given",
+     .when = GG_BIT(GG_IF_STARTED) | GG_BIT(GG_IF_FOLLOWED)},
     {"start.positions", GG_FIELD_FILE, AT(start.positions), .words = placements, .special = "random",
      .doc =
          "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, "

@@ -44,13 +44,13 @@ static void set_composition(gg_model *m, const gg_scene *s, bool counted)
   }
 }
 
-/* Between walls the gap of dsmc is that of `particles` grains in md, to the last bit; its area grows with the ensemble.
- */
+/* Between walls, and across a wave, the gap of dsmc is that of `particles` grains in md, to the last bit; its area
+ * grows with the ensemble. */
 static void set_box(gg_model *m, const gg_scene *s)
 {
   gg_model md = {.n = s->particles};
   gg_common_model_set_size(m, s->phi, s->aspect);
-  if (!m->ensemble || !gg_flow_is_walled(s->flow)) return;
+  if (!m->ensemble || m->homogeneous) return;
   set_composition(&md, s, true);
   gg_common_model_set_size(&md, s->phi, s->aspect);
   for (int a = 0; a < 3; a++) m->box[a] = md.box[a] * (a == 1 ? 1 : sqrt(m->volume / md.volume));
@@ -279,7 +279,8 @@ static gg_status make(const gg_scene *s, gg_engine_kind engine, bool counted, gg
     return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
                         gg_flow_of(s->flow)->word, m->law.name);
   m->ensemble = gg_common_engine_of((int)engine)->ensemble;
-  m->homogeneous = m->ensemble && !gg_flow_is_walled(s->flow);
+  m->wave = gg_scene_wave(s);
+  m->homogeneous = m->ensemble && !gg_flow_is_walled(s->flow) && m->wave == 0;
   m->n = m->ensemble ? gg_scene_ensemble_size(s) : s->particles;
   set_composition(m, s, counted);
   if (counted) GG_TRY(check_grains(m, s, err));

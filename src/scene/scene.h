@@ -86,6 +86,7 @@ struct gg_scene {
     double temperature, rotational_temperature; /* or GG_AUTO */
     double a2;                                  /* fourth cumulant of the velocities */
     double spin;                                /* mean angular velocity along z, or GG_AUTO: rolling with the shear */
+    double wave;                                /* amplitude of a transverse wave, over the thermal velocity */
     char positions[GG_FILE_NAME];               /* "": random; GG_LATTICE; or a file */
   } start;
   double aspect[3]; /* shape of the box, relative edges */
@@ -192,6 +193,12 @@ static inline double gg_scene_clock_rate(const gg_scene *s)
 static inline bool gg_scene_is_followed(const gg_scene *scene)
 {
   return scene->run.duration > 0;
+}
+
+/* Amplitude of the wave that a followed gas starts with. */
+static inline double gg_scene_wave(const gg_scene *scene)
+{
+  return gg_scene_is_followed(scene) ? scene->start.wave : 0;
 }
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */

@@ -48,6 +48,7 @@ double gg_theory_a2_white_noise(double e)
 double gg_theory_thermostat_factor(const gg_model *m)
 {
   static const double share[] = {[GG_UNHEATED] = 0.5, [GG_HEAT_SCALES] = 1, [GG_HEAT_KICKS] = 0, [GG_HEAT_BATHES] = 0};
+  if (m->wave > 0 && gg_common_keeps_energy(m)) return share[GG_UNHEATED]; /* see measure/shear_wave.c */
   return share[gg_common_heat_of(m)];
 }
 

@@ -65,8 +65,8 @@ static double longest_edge(const gg_model *m)
 double gg_theory_stable_grains(const gg_model *m)
 {
   const gg_heat heat = gg_common_thermostats[m->thermostat].heat;
-  const bool cools = gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && heat == GG_HEAT_SCALES) ||
-                     (m->linear_response && heat == GG_UNHEATED);
+  const bool cools =
+      gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && heat == GG_HEAT_SCALES) || m->linear_response;
   if (m->homogeneous || !cools) return NAN;
   return (double)m->n * pow(gg_theory_clustering_length(m) / longest_edge(m), 3);
 }

@@ -68,7 +68,7 @@ static void a_missing_need_removes_its_quantities_only(void **state)
        "there is one species only"},
       {{.flow = GG_USF, .rule = GG_ROUGH, .shear_rate = 1, .n_species = 2},
        GG_NEEDS_LINEAR_RESPONSE,
-       "needs flow: small_shear; or md of elastic grains at rest"},
+       "needs flow: small_shear, start.wave, or md of elastic grains at rest"},
       {{.flow = GG_USF, .rule = GG_ROUGH, .shear_rate = 1, .n_species = 2, .linear_response = true, .elastic = true},
        GG_NEEDS_LOSS,
        "collisions conserve energy"},

@@ -3,10 +3,10 @@
  * the last bit as an uninterrupted one: bins, origins in time, and counters are all in the checkpoint, and changes
  * by a protocol are in force again. Every observable, both engines, two replicas; before, between and after changes. */
 #include "curve_test.h"
+#include "graingas.h"
 #include "run/replica.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
-#include "graingas.h"
 
 /* Interruption at a frame: frames are at the same places of every run, checks for a stop are not. */
 typedef struct stop {
@@ -134,6 +134,15 @@ static const struct {
      ", run: {duration: 40}, "
      "protocol: [{at: 8, shear_rate: 2}, {at: 20.3, collision.beta: 0.5, collision.e: 0.7}]}",
      MD | DSMC},
+    {"{flow: hcs, phi: 0.1, collision: {e: 0.7}, " FEW
+     ", start: {wave: 0.3}, aspect: [1, 1.5, 1], run: {duration: 90}}",
+     MD | DSMC},
+    {"{flow: hss, phi: 0.1, collision: {e: 0.8}, " FEW
+     ", start: {wave: 0.3}, aspect: [1, 1.5, 1], run: {duration: 30}}",
+     MD | DSMC},
+    {"{flow: hss, thermostat: bath, bath: {drag: 0.1}, phi: 0.1, collision: {e: 0.8}, " FEW
+     ", start: {wave: 0.3}, aspect: [1, 1.5, 1], run: {duration: 30}}",
+     DSMC},
     {"{flow: hcs, phi: 0.1, collision: {e: 1}, " FEW ", run: {duration: 30}, protocol: [{at: 9, collision.e: 0.7}]}",
      DSMC},
     {"{flow: hcs, phi: 0.1, collision: {e: 0.9}, " FEW ", run: {duration: 60}, protocol: [{at: 20, collision.e: 1}]}",

@@ -85,6 +85,20 @@ static void test_grid(void **state)
   assert_true(rough > 0);
 }
 
+/* The linear response to shear takes 0.4 of the stable number, cooling or with the Gaussian thermostat. */
+static void test_linear_response(void **state)
+{
+  (void)state;
+  static const char *const thermostats[] = {"none", "gaussian"};
+  for (int k = 0; k < 2; k++) {
+    char yaml[200];
+    snprintf(yaml, sizeof yaml, "{flow: small_shear, thermostat: %s, phi: 0.1, collision: {e: 0.7}}", thermostats[k]);
+    const gg_scene s = scene_of(yaml);
+    const double length = of_unstable(s, s.particles);
+    assert_true(s.particles < USUAL && length * length * length < 0.4 && length * length * length > 0.38);
+  }
+}
+
 static void test_others_keep_it(void **state)
 {
   (void)state;
@@ -123,6 +137,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_grid),
+      cmocka_unit_test(test_linear_response),
       cmocka_unit_test(test_others_keep_it),
       cmocka_unit_test(test_given_and_twice),
   };

@@ -3,14 +3,20 @@
  * and are sorted into cells across the channel. A step is half a flight, collisions, half a flight. The method is
  * explained in docs/explanation/dsmc.md.
  *
+ * For a gas with a transverse wave (gg_model.wave) the channel has no walls and is periodic: heights and the cells of
+ * partners wrap. There candidates are drawn by cells alone. Such a gas may have a thermostat (channel_heat.c).
+ *
  * Frezzotti, Phys. Fluids 9 (1997) 1329; Montanero & Santos, Phys. Rev. E 54 (1996) 438; Bird's method at phi = 0. */
 #ifndef GG_DSMC_WALLS_CHANNEL_H
 #define GG_DSMC_WALLS_CHANNEL_H
+
+#include <math.h>
 
 #include "base/thread_pool.h"
 #include "common/engine.h"
 #include "common/laws/coefficient_tables.h"
 #include "common/rng.h"
+#include "common/thermostat.h"
 #include "dsmc/advance.h"
 #include "dsmc/kernel/pass.h"
 #include "dsmc/majorant.h"
@@ -111,6 +117,9 @@ typedef struct gg_dsmc_channel {
   uint32_t *place;                       /* of each grain: its cell, then its index after sorting */
   double low[GG_MAX_SPECIES], high[GG_MAX_SPECIES], radius[GG_MAX_SPECIES]; /* heights of centres */
   double reach[GG_PAIRS]; /* distance of centres at contact; 0 in the Boltzmann limit */
+  bool periodic;          /* along y, without walls */
+  bool heated;            /* by a thermostat, in a periodic channel */
+  double kept, loss_rate; /* Gaussian thermostat: energy of the centres, and what the last step lost of it per time */
   gg_vec gravity;
   gg_rule wall_rule; /* rule of contacts with walls; without spins a wall acts on the centre */
   gg_dsmc_channel_cells cells;
@@ -146,11 +155,22 @@ GG_INLINE size_t gg_dsmc_channel_part(const gg_dsmc_channel *d, int part)
   return (size_t)d->model.n * (size_t)part / (size_t)d->parts;
 }
 
+/* The image of a height in a periodic channel. */
+GG_INLINE double gg_dsmc_channel_wrap(const gg_dsmc_channel *d, double y)
+{
+  return y - d->model.box[1] * floor(y / d->model.box[1]);
+}
+
 /* channel_flight.c: move all grains for a time, and count them by cell. */
 void gg_dsmc_channel_fly(gg_dsmc_channel *d, double dt);
 /* Move one grain for a time; the engine is unchanged. */
 void gg_dsmc_channel_fly_grain(const gg_dsmc_channel *d, double dt, gg_rng *rng, gg_dsmc_channel_grain *grain,
                                gg_dsmc_channel_contacts *all);
+
+/* channel_heat.c: the thermostat of a periodic channel acts for half of a step, before and after its collisions. */
+bool gg_dsmc_channel_is_heated(const gg_model *model);
+void gg_dsmc_channel_heat_before(gg_dsmc_channel *d, double dt);
+void gg_dsmc_channel_heat_after(gg_dsmc_channel *d, double dt);
 
 /* channel_cells.c */
 gg_status gg_dsmc_channel_cells_new(gg_dsmc_channel *d, gg_error *err);
@@ -191,7 +211,13 @@ void gg_dsmc_channel_describe(const gg_model *model, void (*line)(void *context,
 gg_status gg_dsmc_channel_save(const gg_engine *engine, gg_archive *archive, gg_error *err);
 gg_status gg_dsmc_channel_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);
 
-/* channel_engine.c: operations of engines in a channel; gg_dsmc_ops passes models with walls to them. */
+/* True of a model for this engine: with walls, or with a wave in a periodic channel. */
+static inline bool gg_dsmc_channel_has(const gg_model *model)
+{
+  return gg_flow_is_walled(model->flow) || model->wave > 0;
+}
+
+/* channel_engine.c: operations of engines in a channel; gg_dsmc_ops passes their models to them. */
 extern const gg_engine_ops gg_dsmc_channel_ops;
 
 #endif

@@ -79,7 +79,7 @@ static gg_status make_blocks(gg_dsmc_channel *d, gg_error *err)
 {
   gg_dsmc_channel_cells *c = &d->cells;
   const double reach = reach_of(d);
-  if (d->model.n_species > 1 || reach < NARROW) return GG_OK;
+  if (d->model.n_species > 1 || d->periodic || reach < NARROW) return GG_OK;
   c->block = (int)fmax(1, floor(reach / BLOCKS_PER_REACH));
   c->blocks = (c->n + c->block - 1) / c->block;
   c->far = (int)ceil(reach / c->block);
@@ -221,6 +221,13 @@ GG_CLONES static void spread(int n, int shift, double weight, const double *rest
   for (int a = first; a < end; a++) to[a] += weight * mean[a + shift];
 }
 
+/* The same in a periodic channel, with the images below and above. */
+static void spread_round(int n, int shift, double weight, const double *mean, double *to)
+{
+  for (int image = -1; image <= 1; image++)
+    if (abs(shift + image * n) < n) spread(n, shift + image * n, weight, mean, to);
+}
+
 /* Local solid fraction at all places: n in the middles of cells, then n at their upper edges. And the sum of its
  * species' parts over their diameters. */
 static void set_filling(gg_dsmc_channel *d)
@@ -235,7 +242,8 @@ static void set_filling(gg_dsmc_channel *d)
     for (int b = 0; b < n; b++) mean[b] = c->mean[b * species + s];
     for (int k = -c->reach; k <= c->reach; k++) { /* half cells from a place to the middle of a cell */
       const bool edge = k % 2;
-      if (abs(k) / 2 < n) spread(n, (k + edge) / 2, kernel[abs(k)], mean, grains + edge * n);
+      if (abs(k) / 2 < n)
+        (d->periodic ? spread_round : spread)(n, (k + edge) / 2, kernel[abs(k)], mean, grains + edge * n);
     }
     for (int place = 0; place < 2 * n; place++) {
       const double part = M_PI / 6 * diameter * diameter * diameter * grains[place] / c->volume;

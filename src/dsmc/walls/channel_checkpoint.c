@@ -29,6 +29,10 @@ static gg_status transfer_all(gg_dsmc_channel *d, direction w, gg_error *err)
   const gg_dsmc_channel_cells *c = &d->cells;
   const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, cells = (size_t)c->n;
   GG_TRY(transfer(w, "dsmc/gap", GG_ITEM_U8, &d->now, sizeof d->now, err));
+  if (d->heated && gg_common_keeps_energy(&d->model)) {
+    GG_TRY(transfer(w, "dsmc/kept", GG_ITEM_F64, &d->kept, 1, err));
+    GG_TRY(transfer(w, "dsmc/loss_rate", GG_ITEM_F64, &d->loss_rate, 1, err));
+  }
   GG_TRY(transfer(w, "dsmc/height_velocity", GG_ITEM_F64, g->at, 4 * n, err));
   if (g->s) GG_TRY(transfer(w, "dsmc/spin", GG_ITEM_F64, g->s, 3 * n, err));
   if (g->last) GG_TRY(transfer(w, "dsmc/last", GG_ITEM_F64, g->last, n, err));
@@ -64,7 +68,9 @@ static bool is_state(const gg_dsmc_channel *d)
          gg_dsmc_is_between(s->pending, 0, 1e5 * crossing) && gg_dsmc_is_between(s->rate, 0, 1e300) &&
          gg_dsmc_is_between(s->all_rate, 0, 1e300) && gg_dsmc_is_between(s->time, -1e300, 1e300) &&
          gg_dsmc_is_between(s->unmeasured, 0, 1e300) && gg_dsmc_is_between(s->overfilled, 0, 1) &&
-         gg_dsmc_is_between(s->advance.gone, 0, 1e300) && s->advance.asked >= 0 && s->keeps_sums <= 1;
+         gg_dsmc_is_between(s->advance.gone, 0, 1e300) && s->advance.asked >= 0 && s->keeps_sums <= 1 &&
+         (!d->heated || !gg_common_keeps_energy(&d->model) ||
+          (gg_dsmc_is_between(d->kept, 1e-300, 1e300) && gg_dsmc_is_between(d->loss_rate, 0, 1e300)));
 }
 
 /* Validate the grains: heights between the walls, energy of about the temperature, each grain once. */

@@ -210,6 +210,28 @@ GG_INLINE void find_partner(const gg_dsmc_channel *d, const pass *p, block *b, u
   b->scale[k] = p->chi[cell] * (int)n;
 }
 
+/* Draw eight candidates in a periodic channel, with their partners. The contact value is that of the middle between
+ * both grains, in half cells round the channel. */
+static __attribute__((noinline)) void draw_round(const gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng,
+                                                 block *b, uint32_t first)
+{
+  const gg_half *grains = (const gg_half *)d->grains.at;
+  const int cells = d->cells.n;
+  draw_numbers(p, rng, b, first);
+  for (uint32_t k = first; k < first + GG_BATCH; k++) {
+    const double at = (grains[b->i[k]][0] - d->cells.from) * d->cells.inverse + p->reach * b->ky[k];
+    const int beside = (int)floor(at), cell = beside < 0 ? beside + cells : beside < cells ? beside : beside - cells;
+    const int middle = (p->cell + beside + 2 * cells) % (2 * cells);
+    const uint32_t *start = p->start + (uint32_t)(cell + 1) * (uint32_t)d->model.n_species;
+    const uint32_t n = start[1] - start[0], j = start[0] + (uint32_t)((uint64_t)b->j[k] * n >> 32);
+    b->relative[k] = grains[b->i[k]] - grains[j];
+    b->j[k] = j;
+    b->home[k] = (uint32_t)p->cell;
+    b->cell[k] = (uint32_t)cell + 1;
+    b->scale[k] = p->chi[middle - p->cell + 1] * (int)n;
+  }
+}
+
 /* Cells of these heights, which are in units of cells. */
 GG_INLINE gg_list8 cells_of(gg_v8 height, double last)
 {
@@ -260,6 +282,10 @@ GG_INLINE void draw_by_blocks(const gg_dsmc_channel *d, const pass *p, gg_dsmc_l
 static void draw(gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
 {
   const uint32_t n = (b->n + GG_BATCH - 1) / GG_BATCH * GG_BATCH;
+  if (d->periodic) {
+    for (uint32_t k = 0; k < n; k += GG_BATCH) draw_round(d, p, rng, b, k);
+    return;
+  }
   if (d->cells.block > 0) {
     const gg_half *grains = (const gg_half *)d->grains.at;
     for (uint32_t k = 0; k < n; k += GG_BATCH) draw_by_blocks(d, p, rng, b, k);

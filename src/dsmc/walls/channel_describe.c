@@ -18,8 +18,10 @@ gg_status gg_dsmc_channel_accepts(const gg_model *m, gg_error *err)
   if (gg_common_surface_is_open_above(m) && m->gravity[1] >= 0)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "walls.top: open needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
-  if (m->thermostat != GG_NO_THERMOSTAT)
+  if (m->thermostat != GG_NO_THERMOSTAT && !gg_flow_takes(m->flow, m->thermostat))
     return gg_base_fail(err, GG_BAD_INPUT, "thermostat: not in flow: %s", gg_flow_of(m->flow)->word);
+  if (m->wave > 0 && (gg_model_is_sheared(m) || m->rule != GG_SMOOTH))
+    return gg_base_fail(err, GG_BAD_INPUT, "start.wave: with engine: dsmc needs smooth grains and no imposed shear");
   if (m->box[1] < 2 * widest)
     return gg_base_fail(
         err, GG_BAD_INPUT,
@@ -54,6 +56,7 @@ void gg_dsmc_channel_describe(const gg_model *m, void (*line)(void *context, con
   if (m->law.name) line(context, "e follows from the speed of each collision");
   if (m->kicks) line(context, "kicks at every contact between grains");
   if (m->turns) line(context, "torques act along the flights");
+  if (m->wave > 0) line(context, "periodic across the gap, where the gas starts with a transverse wave");
   line(context, m->boltzmann
                     ? "Boltzmann limit: partners in the same cell, no contact value, no collisional stress"
                     : "Enskog: partners at a distance, contact value of the local density, collisional stress");

@@ -31,7 +31,9 @@ static double step(gg_dsmc_channel *d, double left, double wanted)
   gg_dsmc_channel_fly(d, s->pending + 0.5 * dt);
   gg_dsmc_channel_sort(d);
   count(&d->cells, d->model.n_species, dt);
+  if (d->heated) gg_dsmc_channel_heat_before(d, dt);
   d->collide(d, dt);
+  if (d->heated) gg_dsmc_channel_heat_after(d, dt);
   s->pending = 0.5 * dt;
   s->time += dt;
   s->unmeasured += dt;
@@ -186,10 +188,26 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
   }
 }
 
+/* In a periodic channel without a thermostat: velocities by the factor, times by its inverse. */
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
-  (void)engine, (void)power;
-  return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled between walls: the drive sets the clock");
+  gg_dsmc_channel *d = channel_of(engine);
+  gg_dsmc_channel_state *s = &d->now;
+  const double factor = ldexp(1, power);
+  if (!d->periodic || d->heated)
+    return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled between walls or with a thermostat");
+  for (size_t i = 0; i < (size_t)d->model.n; i++) {
+    d->grains.at[i].c = gg_scale(factor, d->grains.at[i].c);
+    if (d->grains.s) d->grains.s[i] = gg_scale(factor, d->grains.s[i]);
+    if (d->grains.last) d->grains.last[i] /= factor;
+  }
+  for (int k = 0; k < d->cells.n * d->model.n_species; k++) d->cells.counted[k] /= factor;
+  double *const times[] = {&s->time, &s->pending, &s->step, &s->unmeasured};
+  for (size_t i = 0; i < sizeof times / sizeof *times; i++) *times[i] /= factor;
+  s->rate *= factor, s->all_rate *= factor, s->temperature *= factor * factor;
+  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++)
+    s->transfer.loss[p] *= factor * factor, s->transfer.given[p] *= factor * factor;
+  return GG_OK;
 }
 
 static gg_status restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
@@ -201,7 +219,7 @@ static gg_status restore(const gg_model *model, const gg_archive *archive, gg_en
 
 const gg_engine_ops gg_dsmc_channel_ops = {
     .name = "dsmc",
-    .doc = "Enskog Monte Carlo between walls",
+    .doc = "Enskog Monte Carlo between walls, or across a periodic channel",
     .accepts = gg_dsmc_channel_accepts,
     .bytes = gg_dsmc_channel_bytes,
     .create = create,

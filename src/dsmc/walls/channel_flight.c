@@ -106,6 +106,7 @@ void gg_dsmc_channel_fly_grain(const gg_dsmc_channel *d, double dt, gg_rng *rng,
     dt -= delay;
   }
   move(d, p, dt);
+  if (d->periodic) p->r.y = gg_dsmc_channel_wrap(d, p->r.y);
 }
 
 static void fly_to_walls(gg_dsmc_channel *d, size_t i, double dt, gg_rng *rng, gg_dsmc_channel_contacts *all)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "common/shear_wave.h"
 #include "dsmc/ensemble.h"
 #include "dsmc/walls/channel.h"
 
@@ -43,8 +44,8 @@ static void set_heights(gg_dsmc_channel *d)
   const gg_surface *lower = gg_surface_at(m, 1, -1), *upper = gg_surface_at(m, 1, 1);
   for (int s = 0; s < m->n_species; s++) {
     d->radius[s] = m->boltzmann ? 0 : 0.5 * m->diameter[s];
-    d->low[s] = lower->place + d->radius[s];
-    d->high[s] = upper ? upper->place - d->radius[s] : INFINITY;
+    d->low[s] = d->periodic ? 0 : lower->place + d->radius[s];
+    d->high[s] = d->periodic ? m->box[1] : upper ? upper->place - d->radius[s] : INFINITY;
   }
   for (int p = 0; p < gg_pairs_of(m->n_species); p++) d->reach[p] = m->boltzmann ? 0 : m->sigma[p];
 }
@@ -62,6 +63,8 @@ gg_status gg_dsmc_channel_allocate(const gg_model *model, gg_dsmc_channel **made
   d->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
   const bool spins = model->rule != GG_SMOOTH;
   d->wall_rule = spins ? model->rule : model->wall_rule;
+  d->periodic = model->wave > 0;
+  d->heated = d->periodic && gg_dsmc_channel_is_heated(model);
   set_heights(d);
   const size_t n = (size_t)model->n;
   gg_status status = allocate_grains(&d->grains, n, spins, err);
@@ -159,6 +162,18 @@ static void add_flow(gg_dsmc_channel *d)
     d->grains.at[i].c.x += rate * (d->grains.at[i].y - 0.5 * d->model.box[1]);
 }
 
+static void add_wave(gg_dsmc_channel *d)
+{
+  const gg_model *m = &d->model;
+  gg_wave_sums sums = {0};
+  for (size_t i = 0; i < (size_t)m->n; i++) {
+    const gg_dsmc_channel_motion *at = &d->grains.at[i];
+    gg_wave_add(&sums, m->mass[d->grains.species[i]], gg_wave_profile(m, at->y), at->c.x);
+  }
+  for (size_t i = 0; i < (size_t)m->n; i++)
+    d->grains.at[i].c.x += gg_wave_start(m, &sums, gg_wave_profile(m, d->grains.at[i].y));
+}
+
 static gg_status take_grains(gg_dsmc_channel *d, const gg_grain_arrays *given, gg_error *err)
 {
   gg_dsmc_channel_grains *g = &d->grains;
@@ -190,6 +205,7 @@ static void begin(gg_dsmc_channel *d)
     energy += d->model.mass[d->grains.species[i]] * gg_dot(v, v);
   }
   s->temperature = energy / (3 * (double)d->model.n);
+  d->kept = 0.5 * energy;
   s->rate = gg_common_model_collision_rate(&d->model, s->temperature);
   s->all_rate = 0.5 * (double)d->model.n * s->rate;
   gg_dsmc_channel_choose_step(d);
@@ -230,6 +246,7 @@ gg_status gg_dsmc_channel_start(gg_dsmc_channel *d, uint64_t seed, uint64_t stre
   place_grains(d, &rng);
   GG_TRY(set_motion(d, false, m->mass, m->temperature0, &rng, err));
   add_flow(d);
+  if (d->periodic) add_wave(d);
   if (d->grains.s) GG_TRY(set_motion(d, true, inertia, m->ratio0 * m->temperature0, &rng, err));
   if (given) GG_TRY(take_grains(d, given, err));
   begin(d);

@@ -40,6 +40,7 @@ static void make_elastic(gg_model *m)
   m->extension = NULL;
   m->rule = GG_SMOOTH;
   m->elastic = m->elastic_grains = true;
+  m->wave = 0;
   m->contact_time = 0;
   m->temperature0 = 0.5;
   for (int i = 0; i < m->n_species; i++) m->mass[i] = 1;

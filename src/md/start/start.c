@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "common/portable_math.h"
+#include "common/shear_wave.h"
 #include "md/start/all_grains.h"
 #include "md/start/place.h"
 #include "md/start/start.h"
@@ -144,6 +145,18 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   }
 }
 
+static void add_wave(gg_md *e)
+{
+  const gg_model *m = &e->model;
+  gg_wave_sums sums = {0};
+  for (uint32_t i = 0; i < e->n; i++) {
+    const gg_md_grain *g = &e->grain[i];
+    gg_wave_add(&sums, m->mass[gg_md_species_of(g)], gg_wave_profile(m, g->r.y), g->v.x);
+  }
+  for (uint32_t i = 0; i < e->n; i++)
+    e->grain[i].v.x += gg_wave_start(m, &sums, gg_wave_profile(m, e->grain[i].r.y));
+}
+
 /* Draw Gaussian spins with exactly sum K m s^2 = 3 N theta, since perfectly rough grains conserve their total energy.
  * Then add the mean spin, by default that of the vorticity. */
 static void set_spins(gg_md *e, gg_rng *rng, double theta)
@@ -202,6 +215,7 @@ gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_a
   GG_TRY(place_all(e, given, &rng, err));
   GG_TRY(gg_md_poll_stop(e, err));
   set_velocities(e, &rng, e->model.temperature0);
+  if (e->model.wave > 0) add_wave(e);
   GG_TRY(gg_md_poll_stop(e, err));
   set_spins(e, &rng, e->model.ratio0 * e->model.temperature0);
   if (given) take_motion(e, given);
