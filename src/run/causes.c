@@ -52,6 +52,7 @@ static int add_known(const gg_comparison *c, gg_quantity q, gg_causes *causes)
                                   .by = size_of(c, q),
                                   .unsteady = md->steadiness == GG_NOT_STEADY ? md->steadiness_text : NULL,
                                   .T = md->value[GG_Q_TEMPERATURE].mean,
+                                  .rate = md->value[GG_Q_COLLISION_RATE].mean,
                                   .density_waves = mean_of(md, GG_Q_DENSITY_WAVES),
                                   .momentum_waves = mean_of(md, GG_Q_MOMENTUM_WAVES),
                                   .treated = s->collisions ? (double)s->treated / (double)s->collisions : 0,

@@ -18,7 +18,7 @@ typedef struct gg_theory_difference {
   gg_quantity q;
   double by;                             /* relative difference; absolute for quantities about zero */
   const char *unsteady;                  /* why md has no steady mean; NULL: it has one */
-  double T;                              /* temperature */
+  double T, rate;                        /* temperature, collisions per grain and time */
   gg_mean density_waves, momentum_waves; /* of the box's length, over those of a homogeneous gas */
   double treated;                        /* fraction of collisions under the contact-time rule */
   int64_t default_size, usual_size;      /* numbers of grains by default in this scene, and in most */

@@ -23,7 +23,7 @@ def module(name):
 
 data_set, closure = module("data_set"), module("closure.py")
 data_set.GRAINGAS = GRAINGAS
-TABLES = ["usf", "cooling", "usf_correlations", "cooling_correlations", "runs"]
+TABLES = data_set.TABLES
 
 
 def answer(*words):
@@ -96,7 +96,7 @@ def test_make_continues_where_it_stopped_and_collect_gives_the_committed_rows():
     """Three calls of no time at all each make one point of the plan, in its order; theories have the rows of the data set."""
     plan, command = data_set.plan(), [sys.executable, os.path.join(FOLDER, "data_set")]
     for k in range(3):
-        done = subprocess.run([*command, "make", "--minutes", "1e-6", "--folder", "points"], capture_output=True, text=True,
+        done = subprocess.run([*command, "make", "--minutes", "1e-6", "--folder", "points", "--known", "none"], capture_output=True, text=True,
                               env=dict(os.environ, GRAINGAS=GRAINGAS), timeout=100 * PATIENCE)
         check(done.returncode == 0 and f"{len(plan) - k} of {len(plan)} points are missing" in done.stdout, done.stdout, done.stderr)
         check(sorted(os.listdir("points")) == sorted(os.path.basename(data_set.path_of(p, "")) for p in plan[:k + 1]), plan[:3])
@@ -107,6 +107,42 @@ def test_make_continues_where_it_stopped_and_collect_gives_the_committed_rows():
             known = committed[tuple(row.get(k) for k in keys)]
             same = {k: str(v) for k, v in row.items() if k not in ("seconds", "version", "build")}
             check(all(known[k] == v for k, v in same.items()), table, same, known)
+
+
+def test_make_and_collect_start_from_the_committed_tables():
+    """Without the theories of one state `make` computes them alone, and `collect` gives all rows again."""
+    point = data_set.Point("usf", "theories", 0.1, 0.7, -1, math.inf)
+    os.mkdir("known")
+    for table in TABLES:
+        rows = data_set.read(table)
+        with open(os.path.join("known", table + ".csv"), "w", newline="") as f:
+            writer = csv.DictWriter(f, rows[0])
+            writer.writeheader()
+            writer.writerows(row for row in rows if table not in ("usf", "runs") or row.get("flow", "usf") != "usf" or
+                             row["method"] in data_set.ENGINES or any(float(row[k]) != getattr(point, k) for k in data_set.STATE))
+    missing, words = len(data_set.plan()) - len(data_set.read("runs")) + 1, ["--minutes", "1e-6", "--folder", "made", "--known", "known"]
+    done = subprocess.run([sys.executable, os.path.join(FOLDER, "data_set"), "make", *words], capture_output=True, text=True,
+                          env=dict(os.environ, GRAINGAS=GRAINGAS), timeout=100 * PATIENCE)
+    check(done.returncode == 0 and done.stdout.startswith(f"{missing} of {len(data_set.plan())} points"), done.stdout, done.stderr)
+    check(os.listdir("made") == [os.path.basename(data_set.path_of(point, ""))], os.listdir("made"))
+    for table, rows in data_set.tables("made", "known").items():
+        committed = data_set.read(table)
+        check(len(rows) == len(committed), table, len(rows), len(committed))
+        for row, known in zip(rows, committed):
+            check(all(known[k] == str(v) for k, v in row.items() if k not in ("version", "build")), table, row, known)
+
+
+def test_the_hdf5_file_has_the_rows_of_the_tables():
+    import h5py
+    with h5py.File(os.path.join(FOLDER, "data_set.h5")) as f:
+        for table in TABLES:
+            rows, records = data_set.read(table), f[table][:]
+            check(len(rows) == len(records) and list(rows[0]) == list(records.dtype.names), table, len(rows), len(records))
+            for column in rows[0]:
+                for row, cell in zip(rows, records[column]):
+                    same = row[column] == cell.decode() if isinstance(cell, bytes) else (
+                        math.isnan(cell) if row[column] == "" else float(row[column]) == cell)
+                    check(same, table, column, row[column], cell)
 
 
 def test_dsmc_agrees_with_the_noise_free_solution_of_the_same_state():
