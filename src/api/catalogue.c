@@ -17,13 +17,6 @@
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
 
-static const char *const type_names[] = {
-    [GG_FIELD_NUMBER] = "number", [GG_FIELD_INTEGER] = "integer", [GG_FIELD_CHOICE] = "choice",
-    [GG_FIELD_SET] = "set",       [GG_FIELD_PAIRS] = "pairs",     [GG_FIELD_ERRORS] = "errors",
-    [GG_FIELD_VECTOR] = "vector", [GG_FIELD_ENDS] = "ends",       [GG_FIELD_FILE] = "file",
-    [GG_FIELD_RATE] = "rate",     [GG_FIELD_CHANGES] = "changes", [GG_FIELD_SPECIES] = "species",
-    [GG_FIELD_LIST] = "list"};
-
 static gg_status no_more(gg_error *err)
 {
   return gg_base_fail(err, GG_BAD_INPUT, "there are no more entries");
@@ -40,15 +33,14 @@ static const gg_field *field_at(const gg_field *fields, size_t i)
 /* Set the value of a key. */
 static void put_value(const gg_field *f, const void *base, const gg_scene *scene, gg_entry *entry)
 {
-  json_t *value = gg_scene_field_json(f, base, scene);
+  json_auto_t *value = gg_scene_field_json(f, base, scene);
   gg_scene_flow_style_text(value, entry->value, sizeof entry->value);
-  json_decref(value);
 }
 
 static gg_status field_entry(const gg_field *f, gg_entry *entry, gg_error *err)
 {
   if (!f) return no_more(err);
-  *entry = (gg_entry){.name = f->key, .doc = f->doc, .unit = f->unit, .type = type_names[f->type]};
+  *entry = (gg_entry){.name = f->key, .doc = f->doc, .unit = f->unit, .type = gg_scene_kinds[f->type].name};
   gg_scene_field_allowed(f, entry->allowed, sizeof entry->allowed);
   gg_scene_field_when(f, entry->when, sizeof entry->when);
   return GG_OK;

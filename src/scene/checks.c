@@ -302,6 +302,16 @@ static bool uses_md(const gg_scene *s, unsigned uses)
   return uses == GG_USE_THEORY || ((uses & GG_USE_MD) && s->phi > 0 && gg_flow_runs_in(s->flow, GG_MD));
 }
 
+static bool uses_dsmc(const gg_scene *s, unsigned uses)
+{
+  return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
+}
+
+static bool has_box(const gg_scene *s, unsigned uses)
+{
+  return uses_md(s, uses) || gg_flow_is_walled(s->flow);
+}
+
 /* In md, too, the strength of white noise goes with the key: it balances the losses at Enskog's collision rate. */
 static bool uses_contact_value(const gg_scene *s, unsigned uses)
 {
@@ -327,50 +337,20 @@ static bool may_be_open(gg_flow flow)
   return gg_flow_of(flow)->may_be_open;
 }
 
-/* "KEY has no effect ..."; of those that depend on the flow alone, the flows stand between `otherwise` and `after`. */
+static bool has_losses(const gg_scene *s)
+{
+  return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
+         (gg_flow_is_walled(s->flow) && walls_have_rule(s) &&
+          loses_energy(gg_common_rule_select(s->walls.beta, s->walls.mu), s->walls.e, s->walls.beta));
+}
+
+#define OF_FLOW(NAME, otherwise, after, flow) {otherwise, after, flow, NULL},
+#define OF_SCENE(NAME, otherwise, when, holds) {otherwise, "", NULL, when},
 static const struct {
-  const char *otherwise;
-  bool (*flow)(gg_flow flow);
-  const char *after;
-  const char *when; /* the same as a condition; NULL: the flows say it */
-} conditions[GG_N_CONDITIONS] = {
-    [GG_IF_WALLED] = {"but between walls (flow: ", gg_flow_is_walled, ")", NULL},
-    [GG_IF_SHEARED] = {"but in flow: ", gg_flow_is_sheared, "", NULL},
-    [GG_IF_MOVING_WALLS] = {"but in flow: ", gg_flow_has_moving_walls, "", NULL},
-    [GG_IF_OPENABLE] = {"but in flow: ", may_be_open, "", NULL},
-    [GG_IF_MD] = {"with engine: dsmc", NULL, "", "engine md"},
-    [GG_IF_DSMC] = {"with engine: md", NULL, "", "engine dsmc"},
-    [GG_IF_COUNTED] = {"with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
-                       "engine md; dsmc between walls, or above 5000"},
-    [GG_IF_BOXED] = {"with engine: dsmc, which has no box", NULL, "", "engine md, or walls"},
-    [GG_IF_ONE_ENGINE] = {"in a comparison; graingas run keeps trajectories and logs", NULL, "", "graingas run"},
-    [GG_IF_CONTACT_VALUE] =
-        {"but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
-         "one species and phi above 0, in theories, dsmc and white noise"},
-    [GG_IF_LOSSY] = {"where no collision loses energy", NULL, "", "collisions lose energy"},
-    [GG_IF_ERROR] = {"but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, "
-                     "or cooling by a law",
-                     NULL, "", "the flow has headline quantities"},
-    [GG_IF_ROUGH] = {"on smooth grains, which do not spin", NULL, "", "rough grains"},
-    [GG_IF_LAW] = {"while collision.law is constant", NULL, "", "collision.law is not constant"},
-    [GG_IF_BETA] = {"while collision.beta is -1: smooth grains", NULL, "", "collision.beta is not -1"},
-    [GG_IF_FRICTION] = {"while collision.mu is 0: smooth grains", NULL, "", "collision.mu is not 0"},
-    [GG_IF_WALL_BETA] = {"while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
-    [GG_IF_WALL_FRICTION] = {"while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
-    [GG_IF_FRAMES] = {"while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
-    [GG_IF_UNWALLED] = {"between walls", NULL, "", "no walls"},
-    [GG_IF_CELLS] = {"while frame is imposed", NULL, "", "frame is not imposed"},
-    [GG_IF_LOCAL] = {"without measure: [local_distributions]", NULL, "", "measure has local_distributions"},
-    [GG_IF_HEATED] = {"but in flow: ", gg_flow_is_heated, "", NULL},
-    [GG_IF_STARTED] = {"but in flow: ", takes_start, "", NULL},
-    [GG_IF_THERMAL_WALLS] = {"while walls.temperature is none", NULL, "", "walls.temperature is given"},
-    [GG_IF_ACCOMMODATION] = {"while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
-    [GG_IF_WALL_RULE] = {"while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
-                         "walls.temperature is none, or walls.accommodation below 1"},
-    [GG_IF_AVERAGED] = {"while run.duration is given", NULL, "", "run.duration is none"},
-    [GG_IF_FOLLOWED] = {"while run.duration is none", NULL, "", "run.duration is given"},
-    [GG_IF_FORMULA] = {"while shear_rate is a number", NULL, "", "shear_rate is a formula"},
-};
+  const char *otherwise, *after;
+  bool (*flow)(gg_flow flow); /* NULL: a condition of the scene, which is `when` in words */
+  const char *when;
+} conditions[] = {GG_CONDITIONS(OF_FLOW, OF_SCENE)};
 
 void gg_scene_field_when(const gg_field *f, char *text, size_t size)
 {
@@ -397,40 +377,12 @@ bool gg_scene_field_is_of(const gg_field *f, gg_flow flow)
   return !(f->when & GG_BIT(GG_IF_UNWALLED)) || !gg_flow_is_walled(flow);
 }
 
-/* Conditions that depend on more than the flow. */
-static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
+/* The conditions that hold, a bit of each. */
+#define FLOW_BIT(NAME, otherwise, after, flow_is) | (flow_is(s->flow) ? GG_BIT(GG_IF_##NAME) : 0)
+#define SCENE_BIT(NAME, otherwise, when, holds) | ((holds) ? GG_BIT(GG_IF_##NAME) : 0)
+static uint64_t conditions_of(const gg_scene *s, unsigned uses)
 {
-  switch (condition) {
-  case GG_IF_MD: return uses_md(s, uses);
-  case GG_IF_BOXED: return uses_md(s, uses) || gg_flow_is_walled(s->flow);
-  case GG_IF_DSMC: return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
-  case GG_IF_COUNTED:
-    return holds(GG_IF_BOXED, s, uses) || (s->dsmc.particles == 0 && s->particles > GG_LEAST_ENSEMBLE);
-  case GG_IF_ONE_ENGINE: return !(uses & GG_USE_MD) || !(uses & GG_USE_DSMC);
-  case GG_IF_CONTACT_VALUE: return uses_contact_value(s, uses);
-  case GG_IF_LOSSY:
-    return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
-           (gg_flow_is_walled(s->flow) && walls_have_rule(s) &&
-            loses_energy(gg_common_rule_select(s->walls.beta, s->walls.mu), s->walls.e, s->walls.beta));
-  case GG_IF_ERROR: return has_error(s, uses);
-  case GG_IF_ROUGH: return traits_of(s).rough;
-  case GG_IF_LAW: return s->collision.law != GG_LAW_CONSTANT;
-  case GG_IF_BETA: return traits_of(s).beta;
-  case GG_IF_FRICTION: return traits_of(s).friction;
-  case GG_IF_WALL_BETA: return s->walls.beta != -1;
-  case GG_IF_WALL_FRICTION: return s->walls.mu != 0;
-  case GG_IF_THERMAL_WALLS: return s->walls.temperature[0] != GG_AUTO;
-  case GG_IF_ACCOMMODATION: return s->walls.accommodation > 0;
-  case GG_IF_WALL_RULE: return walls_have_rule(s);
-  case GG_IF_FRAMES: return s->output.trajectory_every > 0;
-  case GG_IF_AVERAGED: return !gg_scene_is_followed(s);
-  case GG_IF_FOLLOWED: return gg_scene_is_followed(s);
-  case GG_IF_FORMULA: return *s->shear.formula;
-  case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
-  case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
-  case GG_IF_LOCAL: return s->measure & GG_MEASURE_LOCAL_DISTRIBUTIONS;
-  default: return true;
-  }
+  return 0 GG_CONDITIONS(FLOW_BIT, SCENE_BIT);
 }
 
 /* Keys that have no effect, by the reason. Two more are of parts of keys; the last group has no keys. */
@@ -452,11 +404,9 @@ static void add_key(group *groups, const char *reason, const char *key)
 static bool differs(const gg_field *f, const void *base, const gg_scene *scene, const void *default_base,
                     const gg_scene *defaults)
 {
-  json_t *value = gg_scene_field_json(f, base, scene), *usual = gg_scene_field_json(f, default_base, defaults);
-  bool yes = !json_equal(value, usual);
-  json_decref(value);
-  json_decref(usual);
-  return yes;
+  json_auto_t *value = gg_scene_field_json(f, base, scene);
+  json_auto_t *usual = gg_scene_field_json(f, default_base, defaults);
+  return !json_equal(value, usual);
 }
 
 /* The reason in `text`, if the key has no effect. */
@@ -464,10 +414,10 @@ static bool is_ineffective(const gg_field *f, const gg_scene *scene, unsigned us
 {
   if (f->thermostat && f->thermostat != scene->thermostat)
     return snprintf(text, size, "but with thermostat: %s", gg_common_thermostats[f->thermostat].word), true;
+  const uint64_t lacks = f->when & ~conditions_of(scene, uses);
   for (int i = 0; i < GG_N_CONDITIONS; i++) {
     char flows[160] = "";
-    if (!(f->when & GG_BIT(i))) continue;
-    if (conditions[i].flow ? conditions[i].flow(scene->flow) : holds((gg_condition)i, scene, uses)) continue;
+    if (!(lacks & GG_BIT(i))) continue;
     if (conditions[i].flow) gg_common_flow_list(conditions[i].flow, flows, sizeof flows);
     return snprintf(text, size, "%s%s%s", conditions[i].otherwise, flows, conditions[i].after), true;
   }
@@ -554,7 +504,7 @@ void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_l
     else if (f->type == GG_FIELD_PAIRS)
       add_pairs(groups, f, scene);
   }
-  if (holds(GG_IF_FOLLOWED, scene, uses)) add_changes(groups, scene, uses);
+  if (gg_scene_is_followed(scene)) add_changes(groups, scene, uses);
   if (may_be_open(scene->flow) && scene->walls.top == GG_OPEN_TOP && walls_are_thermal(scene) &&
       scene->walls.temperature[0] != scene->walls.temperature[1])
     add_key(groups, "under an open top", "walls.temperature of the upper wall");

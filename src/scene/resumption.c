@@ -6,26 +6,6 @@
 #include "scene/ensemble_size.h"
 #include "scene/fields.h"
 
-/* How the value of a key stands in memory, and so in an archive. */
-static const struct {
-  gg_item_type type;
-  size_t count;
-} kept[] = {
-    [GG_FIELD_NUMBER] = {GG_ITEM_F64, 1},
-    [GG_FIELD_INTEGER] = {GG_ITEM_I64, 1},
-    [GG_FIELD_CHOICE] = {GG_ITEM_U8, sizeof(int)},
-    [GG_FIELD_SET] = {GG_ITEM_U8, sizeof(unsigned)},
-    [GG_FIELD_PAIRS] = {GG_ITEM_F64, GG_PAIRS},
-    [GG_FIELD_ERRORS] = {GG_ITEM_F64, GG_MAX_UNTIL},
-    [GG_FIELD_VECTOR] = {GG_ITEM_F64, 3},
-    [GG_FIELD_LIST] = {GG_ITEM_F64, GG_LOCAL_DENSITIES},
-    [GG_FIELD_RATE] = {GG_ITEM_U8, sizeof(double) + GG_FORMULA_TEXT},
-    [GG_FIELD_FILE] = {GG_ITEM_U8, GG_FILE_NAME},
-    [GG_FIELD_CHANGES] = {GG_ITEM_U8, sizeof(gg_change) * GG_MAX_CHANGES},
-    [GG_FIELD_ENDS] = {GG_ITEM_F64, 2},
-    [GG_FIELD_SPECIES] = {GG_ITEM_F64, GG_MAX_SPECIES *(sizeof(gg_species) / sizeof(double))},
-};
-
 static const char number_of_species[] = "scene/species.n", extension_item[] = "scene/extension";
 static const char ensemble_item[] = "scene/chosen_for", raised_item[] = "scene/contact_time_raised",
                   clock_item[] = "scene/clock_rate", laws_item[] = "scene/by_speed";
@@ -44,7 +24,8 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     const char *at = (const char *)scene + f->offset;
     if (!f->may_change)
-      GG_TRY(gg_base_archive_put(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
+      GG_TRY(gg_base_archive_put(a, item_of(f, name), gg_scene_kinds[f->type].item, at, gg_scene_kinds[f->type].count,
+                                 err));
   }
   GG_TRY(gg_base_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
   const double chosen_for = gg_scene_ensemble_size_error(scene);
@@ -62,14 +43,13 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
 /* A value as it stands in scenes, lists without brackets: "md", "rheology, cells", "auto", 0.9, "1, 1, 2". */
 static void show(const gg_field *f, const gg_scene *scene, char *text, size_t size)
 {
-  json_t *value = gg_scene_field_json(f, scene, scene);
+  json_auto_t *value = gg_scene_field_json(f, scene, scene);
   gg_scene_flow_style_text(value, text, size);
   const size_t length = strlen(text);
   if (json_is_array(value) && text[length - 1] == ']') {
     memmove(text, text + 1, length);
     text[length - 2] = '\0';
   }
-  json_decref(value);
 }
 
 static gg_status reject(const char *key, const char *there, const char *here, gg_error *err)
@@ -88,7 +68,7 @@ static gg_status same(const char *key, const char *name, const gg_scene *there, 
   gg_field f;
   char one[256] = "", two[256] = "";
   if (gg_scene_key_find(key, GG_MAX_SPECIES, &f) < 0) return GG_OK;
-  const size_t bytes = kept[f.type].count * gg_base_archive_item_size(kept[f.type].type);
+  const size_t bytes = gg_scene_kinds[f.type].count * gg_base_archive_item_size(gg_scene_kinds[f.type].item);
   const char *law = gg_scene_field_law(&f, there, 0), *law_here = gg_scene_field_law(&f, here, 0);
   const bool laws_differ = law && law_here ? strcmp(law, law_here) != 0 : law != law_here;
   if (!laws_differ && memcmp((const char *)there + f.offset, (const char *)here + f.offset, bytes) == 0) return GG_OK;
@@ -166,7 +146,8 @@ gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *a, 
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     char *at = (char *)&there + f->offset;
     if (f->may_change) continue;
-    GG_TRY(gg_base_archive_get(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
+    GG_TRY(
+        gg_base_archive_get(a, item_of(f, name), gg_scene_kinds[f->type].item, at, gg_scene_kinds[f->type].count, err));
     GG_TRY(same_value(f, &there, scene, err));
   }
   return GG_OK;
