@@ -24,6 +24,11 @@ void gg_comparison_free(gg_comparison *c)
   free(c);
 }
 
+void gg_api_comparison_freed(gg_comparison **comparison)
+{
+  gg_comparison_free(*comparison);
+}
+
 static gg_status choose_theories(const gg_model *model, const char *names, bool wanted[GG_MOST_THEORIES], gg_error *err)
 {
   for (const char *at = names; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
@@ -66,39 +71,29 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
   GG_NEED(scene, comparison);
   gg_api_request request = {stop, context, false};
   const unsigned before = gg_base_memory_failures();
-  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
-  gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  GG_FREED gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
   gg_status status =
       model ? evaluate(c, scene, theory, &(gg_stop){gg_api_is_requested, &request}, model, err) : GG_FAILED;
-  status = gg_base_memory_check(before, gg_base_callback_settle(status, err), err);
-  free(model);
-  if (status == GG_OK)
-    *comparison = c;
-  else
-    gg_comparison_free(c);
-  return status;
+  GG_TRY(gg_base_memory_check(before, gg_base_callback_settle(status, err), err));
+  return GG_HAND_OVER(comparison, c), GG_OK;
 }
 
 gg_status gg_theory_local_fluxes(const gg_scene *scene, const char *theory, size_t n, const gg_local_state *state,
                                  gg_local_fluxes *fluxes, gg_error *err)
 {
   GG_NEED(scene, theory, state, fluxes);
-  gg_comparison *c;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = NULL;
   GG_TRY(gg_theories_evaluate(scene, theory, NULL, NULL, &c, err));
-  const gg_status status = gg_theory_fluxes(c->theory[0].theory, &c->model, n, state, fluxes, err);
-  gg_comparison_free(c);
-  return status;
+  return gg_theory_fluxes(c->theory[0].theory, &c->model, n, state, fluxes, err);
 }
 
 /* Whether the scenes differ only in the engine and in keys that may change on resume. */
 static bool same_scene(const gg_scene *one, gg_scene other)
 {
-  gg_archive keys = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive keys = {0};
   other.engine = one->engine;
-  bool same =
-      gg_scene_resumption_put(&other, &keys, NULL) == GG_OK && gg_scene_resumption_check(one, &keys, NULL) == GG_OK;
-  gg_base_archive_clear(&keys);
-  return same;
+  return gg_scene_resumption_put(&other, &keys, NULL) == GG_OK && gg_scene_resumption_check(one, &keys, NULL) == GG_OK;
 }
 
 gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_error *err)
@@ -271,8 +266,7 @@ static gg_status find_curve(const gg_comparison *c, const char *theory, size_t i
   GG_TRY(find_theory(c, theory, &k, err));
   const gg_curves *curves = &c->theory[k].curves;
   if (i >= (size_t)curves->n) return gg_base_fail(err, GG_BAD_INPUT, "%s has %d curves here", theory, curves->n);
-  *curve = &curves->curve[i];
-  return GG_OK;
+  return *curve = &curves->curve[i], GG_OK;
 }
 
 gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
@@ -345,29 +339,26 @@ gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, 
   return gg_api_file_to_bytes(run, comparison->of_one ? NULL : comparison, __func__, bytes, size, err);
 }
 
-/* The comparison of a stored result that was read with this status; clears the stored one. */
-static gg_status restore(gg_status status, gg_stored_result *stored, gg_comparison **comparison, gg_error *err)
+static gg_status restore(gg_stored_result *stored, gg_comparison **comparison, gg_error *err)
 {
-  gg_comparison *c = status == GG_OK ? gg_base_array_new(1, sizeof *c, err) : NULL;
-  if (status == GG_OK) status = c ? gg_files_comparison_restore(stored, c, err) : GG_FAILED;
-  gg_files_stored_result_clear(stored);
-  if (status == GG_OK)
-    *comparison = c;
-  else
-    gg_comparison_free(c);
-  return status;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  if (!c) return GG_FAILED;
+  GG_TRY(gg_files_comparison_restore(stored, c, err));
+  return GG_HAND_OVER(comparison, c), GG_OK;
 }
 
 gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(path, comparison);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_read(&stored, path, err), &stored, comparison, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_read(&stored, path, err));
+  return restore(&stored, comparison, err);
 }
 
 gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(bytes, comparison);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_from_bytes(&stored, bytes, size, err), &stored, comparison, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_from_bytes(&stored, bytes, size, err));
+  return restore(&stored, comparison, err);
 }

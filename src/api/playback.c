@@ -22,12 +22,9 @@ struct gg_trajectory {
 
 static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
 {
-  gg_stored_result stored;
-  gg_status status = gg_files_stored_result_read(&stored, path, err);
-  if (status == GG_OK)
-    status = gg_files_stored_scene(&stored, gg_files_stored_first(&stored), &t->scene, &t->model, err);
-  gg_files_stored_result_clear(&stored);
-  return status;
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_read(&stored, path, err));
+  return gg_files_stored_scene(&stored, gg_files_stored_first(&stored), &t->scene, &t->model, err);
 }
 
 static void destroy(void *trajectory)

@@ -178,9 +178,7 @@ gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curv
 {
   GG_NEED(result, curve);
   const gg_curve *c = curve_at(result, i, err);
-  if (!c) return GG_BAD_INPUT;
-  *curve = gg_api_curve_view(c);
-  return GG_OK;
+  return c ? *curve = gg_api_curve_view(c), GG_OK : GG_BAD_INPUT;
 }
 
 gg_status gg_api_curve_number(const gg_curve *c, size_t k, const char *unit, gg_measurement *number, gg_error *err)
@@ -267,29 +265,27 @@ gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size
   return gg_api_file_to_bytes(result, NULL, __func__, bytes, size, err);
 }
 
-/* The result of a stored one that was read with this status; clears the stored one. */
-static gg_status restore(gg_status status, gg_stored_result *stored, const char *path, gg_result **result,
-                         gg_error *err)
+static gg_status restore(gg_stored_result *stored, const char *path, gg_result **result, gg_error *err)
 {
-  if (status == GG_OK && stored->comparison)
-    status = gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
-  if (status == GG_OK) status = gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
-  gg_files_stored_result_clear(stored);
-  return status;
+  if (stored->comparison)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
+  return gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
 }
 
 gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
 {
   GG_NEED(path, result);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_read(&stored, path, err), &stored, path, result, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_read(&stored, path, err));
+  return restore(&stored, path, result, err);
 }
 
 gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **result, gg_error *err)
 {
   GG_NEED(bytes, result);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_from_bytes(&stored, bytes, size, err), &stored, "the bytes", result, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_from_bytes(&stored, bytes, size, err));
+  return restore(&stored, "the bytes", result, err);
 }
 
 gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
@@ -301,7 +297,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
     return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture",
                         picture);
   gg_plot_paper paper;
-  gg_stored_result stored;
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
   gg_api_request request = {stop, context, false};
   GG_TRY(gg_plot_paper_choose(&paper, picture, format, width, err));
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
@@ -312,7 +308,6 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   if (status == GG_OK)
     status =
         gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &(gg_stop){gg_api_is_requested, &request}, err);
-  gg_files_stored_result_clear(&stored);
   status = gg_base_callback_settle(status, err);
   return gg_base_memory_check(before, status, err); /* otherwise a picture could lack its title */
 }
@@ -335,10 +330,9 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
   if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: %u is not a set of parts to export; allowed: sums of GG_EXPORT_...",
                         result_file, parts);
-  gg_stored_result stored;
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context,
                                             &(gg_stop){gg_api_is_requested, &request}, err);
-  gg_files_stored_result_clear(&stored);
   return gg_base_callback_settle(status, err);
 }

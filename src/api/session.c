@@ -65,17 +65,12 @@ static void destroy(void *session)
 gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err)
 {
   GG_NEED(scene, session);
-  gg_session *s = gg_base_array_new(1, sizeof *s, err);
+  GG_FREED gg_session *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
   gg_base_busy_init(&s->busy, "session", destroy, s);
-  gg_status status = make(s, scene, err);
-  if (status != GG_OK) {
-    free(s);
-    return status;
-  }
+  GG_TRY(make(s, scene, err));
   gg_common_extension_hold(s->scene.extension);
-  *session = s;
-  return GG_OK;
+  return GG_HAND_OVER(session, s), GG_OK;
 }
 
 void gg_session_free(gg_session *s)
@@ -116,13 +111,9 @@ gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *e
 {
   GG_NEED(session, result);
   GG_USE_ALONE(session);
-  gg_result *made = gg_base_array_new(1, sizeof *made, err);
+  GG_CLEARED(gg_run_result_freed) gg_result *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   if (session->over) gg_run_replicas_level(&session->all);
-  gg_status status = gg_run_replicas_report(&session->all, made, err);
-  if (status == GG_OK)
-    *result = made;
-  else
-    gg_result_free(made);
-  return status;
+  GG_TRY(gg_run_replicas_report(&session->all, made, err));
+  return GG_HAND_OVER(result, made), GG_OK;
 }

@@ -29,18 +29,14 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
   if (m->n_species > 1 && !m->homogeneous && !grains->position)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "grains of several species need positions: the start would part the species");
-  gg_engine_grains a = {0};
-  gg_status status = gg_common_engine_grains_make(&a, n, err);
-  if (status == GG_OK) {
-    gg_common_engine_grains_take(m, &given, 1, &a);
-    a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
-                                 .c = grains->velocity ? a.number + 3 * n : NULL,
-                                 .s = grains->spin ? a.number + 6 * n : NULL,
-                                 .species = a.species};
-    status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
-  }
-  gg_common_engine_grains_clear(&a);
-  return status;
+  GG_CLEARED(gg_common_engine_grains_clear) gg_engine_grains a = {0};
+  GG_TRY(gg_common_engine_grains_make(&a, n, err));
+  gg_common_engine_grains_take(m, &given, 1, &a);
+  a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
+                               .c = grains->velocity ? a.number + 3 * n : NULL,
+                               .s = grains->spin ? a.number + 6 * n : NULL,
+                               .species = a.species};
+  return ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
 }
 
 /* The scene with the number of grains, if it gives none. */
@@ -76,7 +72,7 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
   const gg_engine_ops *ops = s->engine->ops;
   const gg_grain_arrays given = grains ? arrays_of(grains) : (gg_grain_arrays){0};
   gg_engine *engine = NULL;
-  gg_engine_grains a = {0};
+  GG_CLEARED(gg_common_engine_grains_clear) gg_engine_grains a = {0};
   atomic_store(&s->stopped, false);
   gg_status status = gg_common_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
@@ -84,15 +80,10 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
     if (grains) gg_common_engine_grains_take(model, &given, gg_api_simulation_unit(s), &a);
     status = ops->create_with(model, 0, 0, &a.grains, s->engine, &engine, err);
   }
-  gg_common_engine_grains_clear(&a);
   status = gg_base_callback_settle(status, err);
+  if (status == GG_OK) status = gg_api_simulation_observe(s, engine, err);
   if (status != GG_OK) {
     if (engine) ops->destroy(engine);
-    return status;
-  }
-  status = gg_api_simulation_observe(s, engine, err);
-  if (status != GG_OK) {
-    ops->destroy(engine);
     return status;
   }
   gg_api_simulation_collect(s);
@@ -116,7 +107,7 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *
 {
   GG_NEED(simulation, copy);
   GG_USE_READING(simulation);
-  gg_archive archive = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   gg_simulation *s = gg_api_simulation_like(simulation, err);
   if (!s) return GG_FAILED;
   s->stop_callback = stop, s->stop_context = context;
@@ -124,7 +115,6 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *
   const gg_engine_ops *ops = simulation->engine->ops;
   gg_status status = ops->save(simulation->engine, &archive, err);
   if (status == GG_OK) status = ops->restore(&s->model, &archive, &s->engine, err);
-  gg_base_archive_clear(&archive);
   return gg_api_simulation_hand_over(s, status, copy, err);
 }
 

@@ -157,17 +157,14 @@ gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg
   GG_USE_READING(simulation);
   gg_simulation_state state;
   GG_TRY(gg_simulation_get_state(simulation, &state, err));
-  double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);
-  if (!numbers) return GG_FAILED;
-  int *species = gg_base_array_new(state.grains, sizeof *species, err);
+  GG_FREED double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);
+  GG_FREED int *species = gg_base_array_new(state.grains, sizeof *species, err);
+  if (!numbers || !species) return GG_FAILED;
   const gg_grains grains = {.position = simulation->model.homogeneous ? NULL : numbers,
                             .velocity = numbers + 3 * state.grains,
                             .spin = numbers + 6 * state.grains,
                             .species = species};
-  gg_status status = species ? gg_simulation_get_grains(simulation, &grains, err) : GG_FAILED;
+  GG_TRY(gg_simulation_get_grains(simulation, &grains, err));
   const gg_grain_arrays all = {grains.position, grains.velocity, grains.spin, grains.species};
-  if (status == GG_OK) *hash = gg_common_grains_hash(state.collisions, &all, state.grains);
-  free(species);
-  free(numbers);
-  return status;
+  return *hash = gg_common_grains_hash(state.collisions, &all, state.grains), GG_OK;
 }

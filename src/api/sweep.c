@@ -63,13 +63,12 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
 gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err)
 {
   GG_NEED(path, sweep);
-  char *text, inside[PATH_MAX];
+  GG_FREED char *text = NULL;
+  char inside[PATH_MAX];
   size_t length;
   if (gg_sweep_folder_text_path(path, inside) && access(inside, R_OK) == 0) path = inside;
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  gg_status status = read_text(text, length, gg_scene_file_name(path), path, sweep, err);
-  free(text);
-  return status;
+  return read_text(text, length, gg_scene_file_name(path), path, sweep, err);
 }
 
 gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, gg_error *err)
@@ -100,19 +99,16 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
 {
   GG_NEED(sweep, key, values);
   GG_USE_ALONE(sweep);
-  gg_values list = {0};
+  GG_CLEARED(gg_sweep_values_clear) gg_values list = {0};
   snprintf(list.key, sizeof list.key, "%s", key);
   GG_TRY(check_open(sweep, err));
-  gg_status status = gg_sweep_values_parse(&list, values, err);
-  if (status == GG_OK && list.range)
-    status =
-        gg_base_fail(err, GG_BAD_INPUT,
-                     "key '%.60s': LOW..HIGH is for random draws, which a sweep's file asks for; here first:last:step "
-                     "or v1,v2,...",
-                     key);
-  if (status == GG_OK) status = gg_sweep_add_rows(sweep, &list, 1, err);
-  gg_sweep_values_clear(&list);
-  return status;
+  GG_TRY(gg_sweep_values_parse(&list, values, err));
+  if (list.range)
+    return gg_base_fail(
+        err, GG_BAD_INPUT,
+        "key '%.60s': LOW..HIGH is for random draws, which a sweep's file asks for; here first:last:step or v1,v2,...",
+        key);
+  return gg_sweep_add_rows(sweep, &list, 1, err);
 }
 
 gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err)

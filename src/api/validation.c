@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "api/api.h"
+#include "base/memory.h"
 #include "io/output_path.h"
 #include "plot/plot.h"
 #include "sweep/standard_grid.h"
@@ -31,7 +32,7 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
   GG_NEED(sweep, folder, verdict);
   gg_validate_options o;
   GG_COPY_OPTIONS(o, options);
-  gg_point_table table;
+  GG_CLEARED(gg_sweep_point_table_clear) gg_point_table table = {0};
   gg_api_request request = {o.stop, context, false};
   const gg_stop stop = {gg_api_is_requested, &request};
   *verdict = NULL;
@@ -48,7 +49,6 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
     warn_of_builds(&table, &o, context);
     status = gg_sweep_validate_table(&table, sweep, &o, written, context, &stop, verdict, err);
   }
-  gg_sweep_point_table_clear(&table);
   status = gg_base_callback_settle(status, err);
   if (status != GG_OK && status != GG_FAILED) free(*verdict), *verdict = NULL;
   return status;

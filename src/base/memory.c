@@ -52,6 +52,18 @@ void *gg_base_array_new(size_t count, size_t size, gg_error *err)
 }
 
 /* Volatile: a compiler may leave out what is allocated and freed. */
+void gg_base_freed(void *place)
+{
+  void *pointer;
+  memcpy(&pointer, place, sizeof pointer);
+  free(pointer);
+}
+
+void gg_base_closed(FILE **place)
+{
+  if (*place) fclose(*place);
+}
+
 bool gg_base_memory_is_room(void)
 {
   void *volatile reserve = malloc(1 << 22);
@@ -64,16 +76,11 @@ bool gg_base_memory_is_room(void)
 static double number_in(const char *path, const char *key)
 {
   char line[256];
-  double value = INFINITY, found;
-  FILE *in = fopen(path, "r");
-  if (!in) return INFINITY;
-  while (fgets(line, sizeof line, in)) {
-    if (strncmp(line, key, strlen(key)) != 0 || sscanf(line + strlen(key), " %lf", &found) != 1) continue;
-    value = found;
-    break;
-  }
-  fclose(in);
-  return value;
+  double found;
+  GG_CLOSED FILE *in = fopen(path, "r");
+  while (in && fgets(line, sizeof line, in))
+    if (strncmp(line, key, strlen(key)) == 0 && sscanf(line + strlen(key), " %lf", &found) == 1) return found;
+  return INFINITY;
 }
 
 /* Memory left within a group's limit; its file cache can be reclaimed. */
@@ -95,7 +102,7 @@ static double left_in_groups(void)
   char line[256];
   double least =
       left_in_group("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_cache");
-  FILE *in = fopen("/proc/self/cgroup", "r");
+  GG_CLOSED FILE *in = fopen("/proc/self/cgroup", "r");
   while (in && fgets(line, sizeof line, in)) {
     if (strncmp(line, "0::", 3) != 0) continue;
     line[strcspn(line, "\n")] = 0;
@@ -108,7 +115,6 @@ static double left_in_groups(void)
       *last = 0;
     }
   }
-  if (in) fclose(in);
   return least;
 }
 

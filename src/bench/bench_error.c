@@ -94,14 +94,12 @@ static gg_status draw(const gg_bench *b, const gg_error_state *s, gg_error *err)
   for (const char *c = title; *c; c++)
     if (*c != ',') word[n++] = *c == ' ' ? '-' : *c;
   word[n] = '\0';
-  char *picture = gg_plot_page_name(b->options->picture, "", word, &paper);
+  GG_FREED char *picture = gg_plot_page_name(b->options->picture, "", word, &paper);
   gg_chart *c = gg_plot_chart_new();
   for (int q = 0; c && q < GG_COURSE_QUANTITIES; q++)
     if (has(s, q)) add_panel(c, s, q);
   if (c) c->title = title, c->lacks |= !picture;
-  gg_status status = c ? gg_plot_chart_finish(c, &paper, picture, err) : gg_base_out_of_memory(err);
-  free(picture);
-  return status;
+  return c ? gg_plot_chart_finish(c, &paper, picture, err) : gg_base_out_of_memory(err);
 }
 
 static const char seconds_caption[] =
@@ -313,9 +311,6 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
 
 gg_status gg_bench_error(gg_bench *b, gg_error *err)
 {
-  gg_error_state *s = gg_base_array_new(MOST_STATES, sizeof *s, err);
-  if (!s) return GG_FAILED;
-  gg_status status = measure(b, s, err);
-  free(s);
-  return status;
+  GG_FREED gg_error_state *s = gg_base_array_new(MOST_STATES, sizeof *s, err);
+  return s ? measure(b, s, err) : GG_FAILED;
 }

@@ -131,7 +131,7 @@ gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper
   page_list pages;
   gg_status status = list(&pages, stored, paper, picture, err);
   if (status != GG_OK) clear(&pages);
-  json_t *theories = NULL;
+  json_auto_t *theories = NULL;
   /* If a page fails, the others are still drawn; the first failure is reported. */
   for (int i = 0; i < pages.n; i++) {
     const page *p = &pages.page[i];
@@ -144,7 +144,6 @@ gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper
     if (done == GG_OK && drawn) drawn(context, p->path);
     if (status == GG_OK) status = done;
   }
-  json_decref(theories);
   clear(&pages);
   return status;
 }

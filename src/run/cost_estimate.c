@@ -110,13 +110,11 @@ gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, 
 
 double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md)
 {
-  double ratio = 0;
-  gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
-  if (m && gg_scene_model_make(scene, GG_DSMC, m, NULL) == GG_OK &&
-      gg_common_engine_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measured(scene, m) == scene->measure)
-    ratio = gg_common_engine_of(GG_MD)->nanoseconds(md) / gg_common_engine_of(GG_DSMC)->nanoseconds(m);
-  free(m);
-  return ratio;
+  GG_FREED gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
+  if (!m || gg_scene_model_make(scene, GG_DSMC, m, NULL) != GG_OK ||
+      gg_common_engine_of(GG_DSMC)->accepts(m, NULL) != GG_OK || measured(scene, m) != scene->measure)
+    return 0;
+  return gg_common_engine_of(GG_MD)->nanoseconds(md) / gg_common_engine_of(GG_DSMC)->nanoseconds(m);
 }
 
 /* "1.2 GB" */

@@ -19,13 +19,12 @@ static gg_status each_requested(const gg_scene *scene, const gg_model *model, vi
 {
   const gg_engine_kind engine = model->ensemble ? GG_DSMC : GG_MD; /* that of the scene may be another */
   const bool changes = gg_scene_protocol_count(scene, INFINITY) > 0;
-  gg_model *end = changes ? gg_base_array_new(1, sizeof *end, err) : NULL;
+  GG_FREED gg_model *end = changes ? gg_base_array_new(1, sizeof *end, err) : NULL;
   if (changes && !end) return GG_FAILED;
-  gg_status status = changes ? gg_run_protocol_end_model(scene, engine, end, err) : GG_OK;
-  for (int i = 0; gg_measure_observables[i] && status == GG_OK; i++)
+  if (changes) GG_TRY(gg_run_protocol_end_model(scene, engine, end, err));
+  for (int i = 0; gg_measure_observables[i]; i++)
     if (scene->measure & gg_measure_observables[i]->flag) visit(context, gg_measure_observables[i], end ? end : model);
-  free(end);
-  return status;
+  return GG_OK;
 }
 
 static void add_flag(void *flags, const gg_observable *o, const gg_model *gas)

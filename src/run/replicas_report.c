@@ -335,7 +335,7 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
 {
   const gg_replica *first = &all->replica[0];
   const gg_observable *o = first->sampler.observable[k];
-  const gg_bins **bins = gg_base_array_new((size_t)all->n, sizeof *bins, err);
+  GG_FREED const gg_bins **bins = gg_base_array_new((size_t)all->n, sizeof *bins, err);
   if (!bins) return GG_FAILED;
   for (int r = 0; r < all->n; r++) bins[r] = &all->replica[r].sampler.bins[k];
   int before = result->curves.n;
@@ -346,7 +346,6 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
     gg_run_result_warn(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
                        (size_t)all->n * bins[0]->blocks, GG_MIN_BLOCKS);
   warn_of_short_blocks(result, before, o->name);
-  free(bins);
   return status;
 }
 

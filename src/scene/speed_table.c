@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/memory.h"
 #include "scene/scene_reader.h"
 
 gg_status gg_scene_speed_table_add(double speed, double value, char text[GG_LAWS_TEXT], gg_error *err)
@@ -43,9 +44,7 @@ gg_status gg_scene_speed_table_read(const char *file, const char *beside, char t
     return gg_base_fail(err, GG_BAD_FILE, "the path of the table is too long");
   if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block the reader */
     return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
-  FILE *in = fopen(path, "r");
-  if (!in) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  const gg_status status = read_rows(in, path, text, err);
-  fclose(in);
-  return status;
+  GG_CLOSED FILE *in = fopen(path, "r");
+  return in ? read_rows(in, path, text, err)
+            : gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
 }

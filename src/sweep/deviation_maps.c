@@ -162,12 +162,10 @@ static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const cha
     if (!has && m->choice->show) return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
     if (!has) continue;
     GG_TRY(gg_stop_check(m->choice->stop, err));
-    char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
+    GG_FREED char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
     if (!picture) return gg_base_out_of_memory(err);
-    gg_status status = draw_quantity(m, word, picture, err);
-    if (status == GG_OK && drawn) drawn(context, picture, word);
-    free(picture);
-    GG_TRY(status);
+    GG_TRY(draw_quantity(m, word, picture, err));
+    if (drawn) drawn(context, picture, word);
   }
   return GG_OK;
 }
@@ -180,16 +178,11 @@ gg_status gg_sweep_deviation_maps_draw(const gg_grid_view *v, const gg_map_choic
     return gg_base_fail(err, GG_BAD_INPUT,
                         "no maps: they have room for %d values of two keys and %d combinations of the others",
                         MOST_CELLS, MOST_COLUMNS);
-  maps *m = gg_base_array_new(1, sizeof *m, err);
-  if (!m) return GG_FAILED;
-  *m = (maps){.view = v, .choice = choice};
-  m->cell = gg_base_array_new(MOST_ROWS * v->n_panels * v->x.n * v->y.n, sizeof *m->cell, err);
-  gg_status status = m->cell ? choose_rows(m, err) : GG_FAILED;
-  if (status == GG_OK) {
-    name_axes(m);
-    status = draw_all(m, drawn, context, err);
-  }
-  free(m->cell);
-  free(m);
-  return status;
+  GG_FREED maps *m = gg_base_array_new(1, sizeof *m, err);
+  GG_FREED gg_heat_cell *cell = gg_base_array_new(MOST_ROWS * v->n_panels * v->x.n * v->y.n, sizeof *cell, err);
+  if (!m || !cell) return GG_FAILED;
+  *m = (maps){.view = v, .choice = choice, .cell = cell};
+  GG_TRY(choose_rows(m, err));
+  name_axes(m);
+  return draw_all(m, drawn, context, err);
 }

@@ -144,10 +144,9 @@ gg_status gg_sweep_values_parse(gg_values *v, const char *text, gg_error *err)
     text += strspn(text, " ");
     size_t length = word_length(text), used = length;
     while (used && text[used - 1] == ' ') used--;
-    char *word = strndup(text, used);
-    gg_status status = word ? add_word(v, word, err) : gg_base_out_of_memory(err);
-    free(word);
-    if (status != GG_OK || !text[length]) return status;
+    GG_FREED char *word = strndup(text, used);
+    GG_TRY(word ? add_word(v, word, err) : gg_base_out_of_memory(err));
+    if (!text[length]) return GG_OK;
     text += length + 1;
   }
   return GG_OK;

@@ -250,15 +250,11 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
 
 gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg_result **result, gg_error *err)
 {
-  gg_result *r = gg_base_array_new(1, sizeof *r, err);
+  GG_CLEARED(gg_run_result_freed) gg_result *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return GG_FAILED;
   const unsigned before = gg_base_memory_failures(); /* for a warning that is lost */
-  gg_status status = gg_base_memory_check(before, restore_all(r, s, engine, err), err);
-  if (status == GG_OK)
-    *result = r;
-  else
-    gg_run_result_free(r);
-  return status;
+  GG_TRY(gg_base_memory_check(before, restore_all(r, s, engine, err), err));
+  return GG_HAND_OVER(result, r), GG_OK;
 }
 
 /* Restore the answers of theories as stored. They are not computed anew: theories may have changed, and a user's
