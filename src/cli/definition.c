@@ -57,34 +57,23 @@ bool gg_cli_quantity_is_minor(const char *name)
   return is && strcmp(name, "viscosity_reduced_kinetic") != 0;
 }
 
-bool gg_cli_theory_answers(const gg_entry *theory, const char *quantity)
-{
-  const size_t length = strlen(quantity);
-  for (const char *at = theory->answers; at && (at = strstr(at, quantity)); at += length)
-    if ((at == theory->answers || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
-  return false;
-}
-
-size_t gg_cli_theories_of(const char *quantity, char *text, size_t size)
+/* The theories that may give a quantity. */
+static void list_theories(const char *quantity, char *text, size_t size)
 {
   gg_entry theory;
-  size_t used = 0, n = 0;
   *text = '\0';
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_THEORIES, i, NULL, &theory, NULL) == GG_OK; i++)
-    if (used < size && gg_cli_theory_answers(&theory, quantity))
-      used += (size_t)snprintf(text + used, size - used, "%s%s", n++ ? ", " : "", theory.name);
-  return n;
+    if (gg_cli_has_word(theory.answers, quantity)) gg_cli_append(text, size, "%s%s", *text ? ", " : "", theory.name);
 }
 
 /* Quantities of a theory, without those that only --all prints. */
 static void list_answers(const gg_entry *theory, char *text, size_t size)
 {
   gg_entry q;
-  size_t used = 0;
   *text = '\0';
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++)
-    if (used < size && !gg_cli_quantity_is_minor(q.name) && gg_cli_theory_answers(theory, q.name))
-      used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", q.name);
+    if (!gg_cli_quantity_is_minor(q.name) && gg_cli_has_word(theory->answers, q.name))
+      gg_cli_append(text, size, "%s%s", *text ? ", " : "", q.name);
 }
 
 /* `most`: rows of a text. The text that defines the word may have two. */
@@ -101,8 +90,8 @@ static void define_quantity(const gg_entry *q, int most)
   print_rows("", text, most);
   line("definition", q->doc, twice(most));
   line("measured in", q->when, most);
-  if (!gg_cli_theories_of(q->name, text, sizeof text)) snprintf(text, sizeof text, "none");
-  line("theories", text, most);
+  list_theories(q->name, text, sizeof text);
+  line("theories", *text ? text : "none", most);
 }
 
 static void define_key(const gg_entry *f, bool of_species, int most)
@@ -149,7 +138,7 @@ static void define_observable(const gg_entry *o, int most)
     json_unpack(one, "{s:s, s:s, s:s, s:o}", "flow", &flow, "engine", &engine, "grains", &grains, "missing", &missing);
     char *text = strcmp(engine, "md") == 0 ? md : dsmc;
     if (strcmp(grains, "rough") == 0 && !json_object_get(missing, o->name))
-      snprintf(text + strlen(text), sizeof md - strlen(text), "%s%s", *text ? ", " : "", flow);
+      gg_cli_append(text, sizeof md, "%s%s", *text ? ", " : "", flow);
   }
   json_decref(all);
   define_word(o, "an observable (measure: [...])", most);
@@ -267,12 +256,8 @@ void gg_cli_print_headline(const gg_scene *scene)
 {
   gg_entry q;
   char names[400] = "";
-  size_t used = 0;
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, scene, &q, NULL) == GG_OK; i++)
-    if (q.headline && used < sizeof names)
-      used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", q.name);
-  if (used)
-    gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): %s", names);
-  else
-    gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): none in this scene");
+    if (q.headline) gg_cli_append(names, sizeof names, "%s%s", *names ? ", " : "", q.name);
+  gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): %s",
+                         *names ? names : "none in this scene");
 }

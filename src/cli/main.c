@@ -57,7 +57,7 @@ static int unknown(const char *word)
                        program_invocation_name, word);
   if (has_value(word, "--help") || has_value(word, "--version"))
     return gg_cli_fail(GG_BAD_INPUT, "option '%.*s' takes no value", (int)strcspn(word, "="), word);
-  for (const gg_option *o = gg_cli_options_table; o->flag; o++)
+  for (const gg_option *o = gg_cli_options_table; o->name; o++)
     if (strncmp(word, "--", 2) == 0 && strcmp(o->name, word + 2) == 0)
       return gg_cli_fail(GG_BAD_INPUT, "options come after the command: %s COMMAND %s ...", program_invocation_name,
                          word);
