@@ -162,9 +162,11 @@ static void define(gg_catalogue list, const gg_entry *entry, int most)
 
 static bool find(const char *word, gg_catalogue *list, gg_entry *entry)
 {
+  const char *member = strncmp(word, "species.", 8) == 0 ? word + 8 : word; /* "species.torque" */
   for (int k = 0; k < LISTS; k++)
     for (size_t i = 0; gg_catalogue_entry(lists[k], i, NULL, entry, NULL) == GG_OK; i++)
-      if (strcmp(entry->name, word) == 0) return *list = lists[k], true;
+      if (strcmp(entry->name, lists[k] == GG_CATALOGUE_SPECIES_KEYS ? member : word) == 0)
+        return *list = lists[k], true;
   return false;
 }
 

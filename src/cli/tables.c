@@ -83,7 +83,7 @@ static json_t *commands_with(const gg_option *o)
   return names;
 }
 
-/* Of a command; NULL: all. */
+/* The options of a command; NULL: all. */
 static json_t *options_of(const gg_command *c)
 {
   json_t *all = json_array();
