@@ -7,6 +7,7 @@
 #include "api/simulation.h"
 #include "base/memory.h"
 #include "files/h5/checkpoint_file.h"
+#include "scene/fields.h"
 
 static gg_status describe_comparison(const gg_archive *a, gg_checkpoint_info *info, gg_error *err)
 {
@@ -59,6 +60,22 @@ static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info
   else
     gg_scene_free(stored);
   return status;
+}
+
+gg_status gg_checkpoint_check_result(const char *path, const char *result_file, gg_error *err)
+{
+  GG_NEED(path, result_file);
+  gg_error why;
+  gg_scene *scene = NULL;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = NULL;
+  GG_CLEARED(gg_base_archive_clear) gg_archive keys = {0};
+  GG_TRY(gg_comparison_read(result_file, &c, err));
+  GG_TRY(gg_checkpoint_about(path, &(gg_checkpoint_info){0}, &scene, err));
+  gg_status status = gg_scene_resumption_put(scene, &keys, err);
+  gg_scene_free(scene);
+  if (status != GG_OK || gg_scene_resumption_check(c->scene, &keys, &why) == GG_OK) return status;
+  return gg_base_fail(err, GG_BAD_INPUT, "%s: is not the result of the run in %s: %.600s", result_file, path,
+                      why.message);
 }
 
 gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)

@@ -322,8 +322,10 @@ gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *
   gg_checkpoint_info about;
   gg_status status = o->extend ? gg_checkpoint_about(o->state, &(gg_checkpoint_info){0}, scene, err)
                                : gg_scene_load(o->input, scene, err);
+  if (status == GG_OK && o->extend && gg_cli_file_exists(o->extend))
+    status = gg_checkpoint_check_result(o->state, o->extend, err);
   /* A checkpoint has the tables of its scene, whose files may be gone. */
-  if (status != GG_OK && o->resume && strstr(err->message, ": cannot be read: ") &&
+  if (status != GG_OK && o->resume && !o->extend && strstr(err->message, ": cannot be read: ") &&
       gg_checkpoint_about(o->resume, &about, scene, NULL) == GG_OK) {
     fprintf(stderr, "warning: %s; the scene is that of %s\n", err->message, o->resume);
     status = GG_OK;

@@ -170,7 +170,7 @@ const gg_field gg_scene_fields[] = {
      .doc =
          "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, "
          "without overlaps; its path is relative to the scene's file, and only a start reads it",
-     .when = IF(MD), .reads = true, .may_change = true},
+     .when = IF(MD), .reads = true},
     {KEY(VECTOR, aspect), 0.01, 100, .by_default = 1, .doc = "shape of the box: ratio of its edges x : y : z",
      .when = IF(BOXED), .also = "box"},
     {KEY(PAIRS, collision.e), 0, 1, .by_default = 0.9,

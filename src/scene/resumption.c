@@ -62,16 +62,25 @@ static gg_status reject(const char *key, const char *there, const char *here, gg
                       there, here, changeable);
 }
 
+/* Whether the values of a field are the same in memory; of files that are read, which may have moved, the names. */
+static bool is_same(const gg_field *f, const char *there, const char *here)
+{
+  if (!f->reads)
+    return memcmp(there, here,
+                  gg_scene_kinds[f->type].count * gg_base_archive_item_size(gg_scene_kinds[f->type].item)) == 0;
+  const char *one = strrchr(there, '/'), *two = strrchr(here, '/');
+  return strcmp(one ? one + 1 : there, two ? two + 1 : here) == 0;
+}
+
 /* The value of one key, or one member of it; `name` is what a message calls it. */
 static gg_status same(const char *key, const char *name, const gg_scene *there, const gg_scene *here, gg_error *err)
 {
   gg_field f;
   char one[256] = "", two[256] = "";
   if (gg_scene_key_find(key, GG_MAX_SPECIES, &f) < 0) return GG_OK;
-  const size_t bytes = gg_scene_kinds[f.type].count * gg_base_archive_item_size(gg_scene_kinds[f.type].item);
   const char *law = gg_scene_field_law(&f, there, 0), *law_here = gg_scene_field_law(&f, here, 0);
   const bool laws_differ = law && law_here ? strcmp(law, law_here) != 0 : law != law_here;
-  if (!laws_differ && memcmp((const char *)there + f.offset, (const char *)here + f.offset, bytes) == 0) return GG_OK;
+  if (!laws_differ && is_same(&f, (const char *)there + f.offset, (const char *)here + f.offset)) return GG_OK;
   show(&f, there, one, sizeof one);
   show(&f, here, two, sizeof two);
   return reject(name, one, two, err);
@@ -146,8 +155,10 @@ gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *a, 
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     char *at = (char *)&there + f->offset;
     if (f->may_change) continue;
+    if (f->reads && !gg_base_archive_find(a, item_of(f, name))) continue; /* of an earlier build */
     GG_TRY(
         gg_base_archive_get(a, item_of(f, name), gg_scene_kinds[f->type].item, at, gg_scene_kinds[f->type].count, err));
+    if (f->reads) at[GG_FILE_NAME - 1] = '\0';
     GG_TRY(same_value(f, &there, scene, err));
   }
   return GG_OK;
