@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes: read, changed, queried and written back. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "api/api.h"
 #include "api/scene_theories.h"
@@ -11,6 +13,7 @@
 #include "common/engine.h"
 #include "common/extension.h"
 #include "common/laws/coefficient_tables.h"
+#include "files/positions.h"
 #include "files/text_format.h"
 #include "io/checked_json.h"
 #include "run/cost_estimate.h"
@@ -49,13 +52,34 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
   return status;
 }
 
+static gg_status reject_positions(gg_scene_reader *r, const char *key, const yaml_node_t *map)
+{
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(r, map, &e);) {
+    if (strcmp(e.word, "start") == 0) GG_TRY(reject_positions(r, key, e.value));
+    if (strcmp(e.word, "positions") == 0 || strcmp(e.word, key) == 0)
+      return gg_scene_reject(r, e.value, key, "%s: cannot be read: %s", r->scene->start.positions, strerror(errno));
+  }
+  return GG_OK;
+}
+
+/* The file of positions has to be there: of scenes that people write, as stored ones outlive it. */
+static gg_status check_positions(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err)
+{
+  gg_scene_reader r = {.name = name, .lines = true, .scene = scene, .err = err};
+  if (!gg_files_positions_are_read(scene) || access(scene->start.positions, R_OK) == 0) return GG_OK;
+  return gg_scene_with_document(&r, yaml, length, "start.positions", reject_positions);
+}
+
 gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
 {
   GG_NEED(path, scene);
   GG_FREED char *text = NULL;
   size_t length;
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  return read_text(text, length, gg_scene_file_name(path), path, scene, err);
+  GG_TRY(read_text(text, length, gg_scene_file_name(path), path, scene, err));
+  const gg_status status = check_positions(*scene, text, length, gg_scene_file_name(path), err);
+  if (status != GG_OK) gg_scene_free(*scene), *scene = NULL;
+  return status;
 }
 
 gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err)

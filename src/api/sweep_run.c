@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gg_sweep_run: runs the missing points of a folder, several at a time. */
+#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -422,6 +423,9 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   if (sweep->settings.does == GG_DOES_THEORY)
     all.options.workers = NULL; /* workers share replicas, and theories have none */
   if (!all.options.command) all.options.command = "the graingas library";
+  if (gg_files_positions_are_read(sweep->base) && access(sweep->base->start.positions, R_OK) != 0)
+    return gg_base_fail(err, GG_BAD_FILE, "%s: key 'start.positions': %s: cannot be read: %s", sweep->name,
+                        sweep->base->start.positions, strerror(errno));
   GG_TRY(gg_sweep_folder_prepare(folder, "the results of a sweep are a folder with a file for each point", err));
   GG_TRY(gg_sweep_folder_note(sweep, folder, err));
   gg_sweep_folder_tidy(folder);
