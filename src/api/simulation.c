@@ -23,7 +23,8 @@ static bool is_stopped(void *context)
   return atomic_load(&s->stopped);
 }
 
-gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err)
+/* Before work that the stop callback may interrupt. */
+static gg_status check_stop(gg_simulation *s, gg_error *err)
 {
   atomic_store(&s->stopped, false);
   return gg_stop_asked(&s->stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
@@ -79,7 +80,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   open_for_use(s);
   s->model.cuts_steps = true;
   s->stop_callback = stop, s->stop_context = context;
-  status = gg_api_simulation_check_stop(s, err);
+  status = check_stop(s, err);
   if (status == GG_OK && s->scene.start.temperature == GG_AUTO) status = gg_theory_start_near_steady(&s->model, err);
   return give(s, status, simulation, err);
 }
@@ -188,7 +189,7 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
 static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   GG_TRY(update_observation(s, err)); /* the last advance may have been interrupted */
-  gg_status status = gg_api_simulation_check_stop(s, err);
+  gg_status status = check_stop(s, err);
   if (status == GG_OK) status = advance_once(s, time, most, err);
   return gg_base_callback_settle(status, err);
 }
@@ -196,8 +197,7 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
 gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err)
 {
   GG_NEED(simulation);
-  if (!(time >= 0 && time < INFINITY))
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
+  if (!(time >= 0 && time < INFINITY)) return GG_REFUSE(err, "gg_simulation_advance: cannot advance by %g", time);
   GG_USE_ALONE(simulation);
   for (uint64_t most = UINT64_MAX; time > 0;) GG_TRY(advance_stretch(simulation, &time, &most, err));
   return GG_OK;
@@ -292,7 +292,7 @@ gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_event *ev
                                gg_error *err)
 {
   GG_NEED(simulation);
-  if (events && !n) return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_record: argument 'n' is missing (NULL)");
+  if (events && !n) return GG_REFUSE(err, "gg_simulation_record: argument 'n' is missing (NULL)");
   GG_USE_ALONE(simulation);
   simulation->record.events = events;
   simulation->record.capacity = capacity;

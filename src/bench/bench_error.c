@@ -211,8 +211,8 @@ static void add_course(const gg_bench *b, gg_bench_table *table, const gg_error_
 static void put_floors(const gg_bench *b, gg_bench_table *table, int row, const gg_error_state *s, int q)
 {
   const gg_by_size *md = &s->size[GG_MD][q], *dsmc = &s->size[GG_DSMC][q];
-  const gg_course_end one = gg_bench_error_course_last(&s->course[DOUBLE], q),
-                      other = gg_bench_error_course_last(&s->course[SINGLE], q);
+  const gg_course_end one = gg_statistics_course_last(&s->course[DOUBLE], q),
+                      other = gg_statistics_course_last(&s->course[SINGLE], q);
   const double unit = s->unit[q], single = (other.mean - one.mean) / unit, e = hypot(one.error, other.error) / unit;
   gg_bench_table_put(table, row, 2, "%.6g", s->truth[GG_DSMC][q]);
   gg_bench_table_put(table, row, 3, "%.1e", s->truth_error[GG_DSMC][q] / unit);
