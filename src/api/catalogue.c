@@ -19,7 +19,7 @@
 
 static gg_status no_more(gg_error *err)
 {
-  return gg_base_fail(err, GG_BAD_INPUT, "there are no more entries");
+  return GG_REFUSE(err, "there are no more entries");
 }
 
 /* The i-th row of a table that ends with a NULL key; NULL after the last. */
@@ -71,7 +71,7 @@ static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error
 {
   int id = gg_scene_field_find(key);
   if (id < 0 || !gg_scene_field_word(&gg_scene_fields[id], 0).name)
-    return gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s' that takes words", key);
+    return GG_REFUSE(err, "a scene has no key '%.60s' that takes words", key);
   gg_word word;
   size_t k = 0;
   while ((word = gg_scene_field_word(&gg_scene_fields[id], (int)k)).name && k < i) k++;
@@ -201,5 +201,5 @@ gg_status gg_catalogue_entry(gg_catalogue catalogue, size_t i, const gg_scene *s
   case GG_CATALOGUE_QUANTITIES: return quantity_entry(i, scene, entry, err);
   case GG_CATALOGUE_THEORIES: return theory_entry(i, scene, entry, err);
   }
-  return gg_base_fail(err, GG_BAD_INPUT, "gg_catalogue_entry: there is no such catalogue");
+  return GG_REFUSE(err, "gg_catalogue_entry: there is no such catalogue");
 }

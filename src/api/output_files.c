@@ -29,8 +29,8 @@ static gg_status check_pairs(const file *all, int n, gg_error *err)
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
       if (!may_be_same(&all[i], &all[j]) && gg_io_path_is_same_file(all[i].path, all[j].path))
-        return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and %s; choose another %s", all[i].path,
-                            all[i].role, all[j].role, all[i].option);
+        return GG_REFUSE(err, "%s: would be both %s and %s; choose another %s", all[i].path, all[i].role, all[j].role,
+                         all[i].option);
   return GG_OK;
 }
 
@@ -65,8 +65,8 @@ static gg_status check_apart(const char *page, const char *picture, const void *
 {
   for (const file *f = context; f->role; f++)
     if (gg_io_path_is_same_file(page, f->path))
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and " GG_PAGE_BESIDE "; choose another picture",
-                          page, f->role, picture);
+      return GG_REFUSE(err, "%s: would be both %s and " GG_PAGE_BESIDE "; choose another picture", page, f->role,
+                       picture);
   return GG_OK;
 }
 
@@ -83,8 +83,8 @@ static gg_status check_ending(const char *output, gg_error *err)
   const char *ending = output ? strrchr(output, '.') : NULL;
   for (size_t i = 0; ending && i < sizeof pictures / sizeof *pictures; i++)
     if (strcasecmp(ending, pictures[i]) == 0)
-      return gg_base_fail(
-          err, GG_BAD_INPUT,
+      return GG_REFUSE(
+          err,
           "%s: has the name of a picture, and results are HDF5: choose FILE.h5 for the output; pictures are "
           "drawn by `compare --picture` and `graingas plot`",
           output);
@@ -99,13 +99,10 @@ gg_status gg_api_picture_check(const gg_api_run_call *r, gg_error *err)
   if (!o->picture) return GG_OK;
   GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
   GG_TRY(gg_plot_paper_choose(&paper, o->picture, NULL, o->picture_width, err));
-  if (!o->output)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: set --output FILE.h5",
-                        o->picture);
+  if (!o->output) return GG_REFUSE(err, "%s: a picture is drawn from an output file: set --output FILE.h5", o->picture);
   GG_TRY(gg_io_output_path_find(&place, o->output, err));
   if (place.stream)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from the output file, and %s keeps none", o->picture,
-                        o->output);
+    return GG_REFUSE(err, "%s: a picture is drawn from the output file, and %s keeps none", o->picture, o->output);
   GG_TRY(gg_io_atomic_check_writable(o->picture, GG_PICTURES_ARE, err));
   return for_pages(r, check_page_writable, NULL, err);
 }

@@ -90,8 +90,7 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
   gg_frame f;
   double edges[9] = {0};
   if (k >= t->stored.n_frames)
-    return gg_base_fail(err, GG_BAD_INPUT, "there is no frame %zu: this trajectory has %zu, counted from 0", k,
-                        t->stored.n_frames);
+    return GG_REFUSE(err, "there is no frame %zu: this trajectory has %zu, counted from 0", k, t->stored.n_frames);
   GG_TRY(gg_files_stored_trajectory_frame(&t->stored, k, &f, edges, err));
   if (t->model.n_species > 1) f.species = t->stored.species;
   gg_status status = gg_run_frame_check(&f, &t->model, err);
@@ -111,6 +110,6 @@ gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species
 {
   GG_NEED(trajectory, state);
   GG_USE_READING(trajectory);
-  if (!trajectory->last.model) return gg_base_fail(err, GG_BAD_INPUT, "read a frame of the trajectory first");
+  if (!trajectory->last.model) return GG_REFUSE(err, "read a frame of the trajectory first");
   return gg_api_moments_species(&trajectory->last, species, 1, state, err);
 }

@@ -128,7 +128,7 @@ static gg_status begin_checkpoints(gg_api_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
   if (!o->checkpoint && r->scene.output.state == GG_STATE_KEPT)
-    return gg_base_fail(err, GG_BAD_INPUT, "output.state: kept needs a file for checkpoints");
+    return GG_REFUSE(err, "output.state: kept needs a file for checkpoints");
   if (o->checkpoint) GG_TRY(check_links(r, err));
   if (o->checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (o->resume) GG_TRY(read_resume(r, err));
@@ -142,7 +142,7 @@ static gg_status read_start(gg_api_run_call *r, gg_error *err)
 {
   if (!gg_files_positions_are_read(&r->scene) || r->options.resume) return GG_OK;
   if (!r->comparison && r->scene.engine != GG_MD) return GG_OK;
-  if (r->options.workers) return gg_base_fail(err, GG_BAD_INPUT, "start.positions: a file needs a run in one process");
+  if (r->options.workers) return GG_REFUSE(err, "start.positions: a file needs a run in one process");
   GG_FREED gg_model *md = gg_base_array_new(1, sizeof *md, err);
   if (!md) return GG_FAILED;
   GG_TRY(gg_scene_model_make(&r->scene, GG_MD, md, err));

@@ -74,8 +74,7 @@ gg_status gg_checkpoint_check_result(const char *path, const char *result_file, 
   gg_status status = gg_scene_resumption_put(scene, &keys, err);
   gg_scene_free(scene);
   if (status != GG_OK || gg_scene_resumption_check(c->scene, &keys, &why) == GG_OK) return status;
-  return gg_base_fail(err, GG_BAD_INPUT, "%s: is not the result of the run in %s: %.600s", result_file, path,
-                      why.message);
+  return GG_REFUSE(err, "%s: is not the result of the run in %s: %.600s", result_file, path, why.message);
 }
 
 gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)

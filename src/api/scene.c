@@ -113,7 +113,7 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   const unsigned before = gg_base_memory_failures();
   json_auto_t *value = gg_scene_key_json(&filled, key);
   if (value) gg_scene_flow_style_text(value, text, size);
-  gg_status status = value ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
+  gg_status status = value ? GG_OK : GG_REFUSE(err, "a scene has no key '%.60s'", key);
   return gg_base_memory_check(before, status, err);
 }
 
@@ -234,7 +234,7 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
     uses |= GG_USE_MD | GG_USE_DSMC;
   } else if (strcmp(use, "theory") != 0) {
     if (gg_api_engine_find(use, &kind, NULL) != GG_OK)
-      return gg_base_fail(err, GG_BAD_INPUT, "use '%.40s' is not allowed; allowed: md, dsmc, compare, theory", use);
+      return GG_REFUSE(err, "use '%.40s' is not allowed; allowed: md, dsmc, compare, theory", use);
     uses = 1u << kind;
   }
   GG_TRY(gg_api_scene_finish(scene, &finished, err));

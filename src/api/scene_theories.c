@@ -116,7 +116,7 @@ static gg_status read_points(const char *path, gg_points_theory **made, char ***
   if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block whoever reads the scene */
     return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  if (length > GG_SCENE_MAX_BYTES) return gg_base_fail(err, GG_BAD_INPUT, "%s: is larger than 1 MiB", path);
+  if (length > GG_SCENE_MAX_BYTES) return GG_REFUSE(err, "%s: is larger than 1 MiB", path);
   return gg_theory_points_read(text, path, made, quantity, names, err);
 }
 

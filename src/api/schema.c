@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON Schema of scenes and sweeps; templates of scenes. */
 #include "api/api.h"
-#include "io/checked_json.h"
 #include "base/memory.h"
+#include "io/checked_json.h"
 #include "scene/fields.h"
 #include "sweep/sweep.h"
 
@@ -31,7 +31,7 @@ gg_status gg_scene_begin(const char *flow, char **text, gg_error *err)
   if (!word.name) {
     char allowed[400];
     gg_scene_field_allowed(&f, allowed, sizeof allowed);
-    return gg_base_fail(err, GG_BAD_INPUT, "there is no flow '%.60s': %s", flow, allowed);
+    return GG_REFUSE(err, "there is no flow '%.60s': %s", flow, allowed);
   }
   *text = gg_scene_template((gg_flow)word.value);
   return *text ? GG_OK : gg_base_out_of_memory(err);

@@ -41,8 +41,7 @@ static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
   GG_TRY(gg_api_scene_finish(scene, &s->scene, err));
   if (!gg_scene_is_given(&s->scene, "run.replicas")) s->scene.run.replicas = 1;
   if (s->scene.run.replicas != 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
-                        (long long)s->scene.run.replicas);
+    return GG_REFUSE(err, "run.replicas: %lld; a session has 1, gg_run takes more", (long long)s->scene.run.replicas);
   s->callbacks = (gg_run_callbacks){.context = s, .progress = note_progress, .interrupted = time_is_up};
   s->progress = (gg_progress){.engine = gg_common_engine_of(s->scene.engine)->name,
                               .phase = "warm-up",
@@ -82,8 +81,7 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
 {
   GG_NEED(session);
   gg_session *s = session;
-  if (!(seconds > 0))
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_session_advance: cannot advance for %g seconds", seconds);
+  if (!(seconds > 0)) return GG_REFUSE(err, "gg_session_advance: cannot advance for %g seconds", seconds);
   GG_USE_ALONE(session);
   if (!s->over) {
     s->until = gg_base_clock_wall() + seconds;

@@ -53,8 +53,8 @@ static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *s
 {
   const gg_item *yaml = gg_base_archive_find(a, "simulation/scene");
   if (!yaml)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: is not a saved simulation (a run resumes from a checkpoint: gg_run_options.resume)", path);
+    return GG_REFUSE(err, "%s: is not a saved simulation (a run resumes from a checkpoint: gg_run_options.resume)",
+                     path);
   *scene = gg_scene_defaults();
   return gg_scene_read(scene, yaml->data, yaml->count, path, err);
 }

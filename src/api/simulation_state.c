@@ -48,8 +48,7 @@ gg_status gg_api_moments_species(const gg_moments *m, int species, double unit, 
 {
   const gg_model *model = m->model;
   if (species < 0 || species >= model->n_species)
-    return gg_base_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
-                        model->n_species);
+    return GG_REFUSE(err, "there is no species %d: this scene has %d, counted from 0", species, model->n_species);
   const double per = unit * unit / (3 * (double)model->n_of[species]);
   *state = (gg_species_state){.grains = (size_t)model->n_of[species],
                               .diameter = model->diameter[species],
@@ -99,8 +98,7 @@ gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_gra
   GG_USE_READING(simulation);
   const gg_model *model = &simulation->model;
   if (into->position && model->homogeneous)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions",
-                        simulation->engine->ops->name);
+    return GG_REFUSE(err, "%s is spatially homogeneous: it has no positions", simulation->engine->ops->name);
   gg_common_engine_grains_copy(simulation->engine, model, gg_api_simulation_unit(simulation), into->position,
                                into->velocity, into->spin, into->species);
   return GG_OK;

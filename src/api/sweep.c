@@ -79,9 +79,7 @@ gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, g
 
 static gg_status check_open(const gg_sweep *sweep, gg_error *err)
 {
-  return sweep->n
-             ? gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep was checked already and cannot be changed", sweep->name)
-             : GG_OK;
+  return sweep->n ? GG_REFUSE(err, "%s: the sweep was checked already and cannot be changed", sweep->name) : GG_OK;
 }
 
 gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err)
@@ -89,8 +87,7 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
   GG_NEED(sweep, key, value);
   GG_USE_ALONE(sweep);
   GG_TRY(check_open(sweep, err));
-  if (gg_sweep_varies(sweep, key))
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: each point sets its own value", key);
+  if (gg_sweep_varies(sweep, key)) return GG_REFUSE(err, "key '%.60s': is varied: each point sets its own value", key);
   return strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
                                         : gg_scene_override(sweep->base, key, value, err);
 }
@@ -104,8 +101,8 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
   GG_TRY(check_open(sweep, err));
   GG_TRY(gg_sweep_values_parse(&list, values, err));
   if (list.range)
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
+    return GG_REFUSE(
+        err,
         "key '%.60s': LOW..HIGH is for random draws, which a sweep's file asks for; here first:last:step or v1,v2,...",
         key);
   return gg_sweep_add_rows(sweep, &list, 1, err);
@@ -130,10 +127,9 @@ const char *gg_sweep_does(const gg_sweep *sweep)
 
 static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
 {
-  if (!sweep->n) return gg_base_fail(err, GG_BAD_INPUT, "%s: call gg_sweep_check first", sweep->name);
+  if (!sweep->n) return GG_REFUSE(err, "%s: call gg_sweep_check first", sweep->name);
   if (i >= sweep->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
-                        sweep->n);
+    return GG_REFUSE(err, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1, sweep->n);
   return GG_OK;
 }
 

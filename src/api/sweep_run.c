@@ -461,7 +461,6 @@ gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, cons
   GG_TRY(gg_sweep_check(sweep, err));
   GG_USE_READING(sweep);
   if (i >= sweep->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
-                        sweep->n);
+    return GG_REFUSE(err, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1, sweep->n);
   return run(sweep, folder, i, i + 1, &own, err);
 }

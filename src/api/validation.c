@@ -38,11 +38,9 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
   *verdict = NULL;
   GG_TRY(gg_sweep_check(sweep, err));
   if (sweep->settings.does != GG_DOES_COMPARE)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: does: %s; validation needs does: compare", sweep->name,
-                        gg_sweep_does(sweep));
+    return GG_REFUSE(err, "%s: does: %s; validation needs does: compare", sweep->name, gg_sweep_does(sweep));
   if (gg_io_path_is_same_file(o.page, sweep->name))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own page; choose another page",
-                        sweep->name);
+    return GG_REFUSE(err, "%s: would be overwritten by its own page; choose another page", sweep->name);
   if (o.picture) GG_TRY(gg_plot_paper_check(o.picture, o.width, err));
   gg_status status = gg_sweep_point_table_read(&table, sweep, folder, &stop, err);
   if (status == GG_OK) {

@@ -345,9 +345,8 @@ static gg_status check_prefix(const char *prefix, gg_error *err)
   struct stat about;
   const bool in_dev = strncmp(prefix, "/dev/", 5) == 0 || strncmp(prefix, "/proc/", 6) == 0; /* /dev/stdout > file */
   if (stat(prefix, &about) != 0 || (!in_dev && S_ISREG(about.st_mode)) || S_ISDIR(about.st_mode)) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "%s: is a device or a pipe; tables and trajectories are files, whose names the prefix begins",
-                      prefix);
+  return GG_REFUSE(err, "%s: is a device or a pipe; tables and trajectories are files, whose names the prefix begins",
+                   prefix);
 }
 
 /* Check what is there already: one file for each output. */
@@ -361,8 +360,7 @@ static gg_status look_at(job *j, size_t i, gg_error *err)
     return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; tables and trajectories are files", t->path);
   for (const target *k = j->target; t->inode && k < t; k++)
     if (k->inode == t->inode && k->device == t->device)
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: would be the same file as %s; choose another prefix", t->path,
-                          k->path);
+      return GG_REFUSE(err, "%s: would be the same file as %s; choose another prefix", t->path, k->path);
   return GG_OK;
 }
 
@@ -371,8 +369,7 @@ static gg_status open_target(job *j, size_t i, const char *path, gg_error *err)
 {
   target *t = &j->target[i];
   if (gg_io_path_is_same_file(t->path, path))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: would be both the result and what is exported from it; choose another prefix", t->path);
+    return GG_REFUSE(err, "%s: would be both the result and what is exported from it; choose another prefix", t->path);
   GG_TRY(look_at(j, i, err));
   return gg_io_atomic_open(&t->file, t->path, false, err);
 }

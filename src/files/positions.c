@@ -83,9 +83,8 @@ static gg_status read_xyz(const char *path, size_t n, bool mixture, gg_positions
   for (int k = 0; at && k < 9; k++) edges[k] = strtod(at, &at);
   for (; good && i < n && i < there; i++)
     good = fgets(line, sizeof line, in) && read_row(line, species, position, to, i);
-  if (!good) return gg_base_fail(err, GG_BAD_INPUT, "line %zu is not one of extended XYZ", i ? i + 2 : 1);
-  if (mixture && species < 0)
-    return gg_base_fail(err, GG_BAD_INPUT, "Properties has no species, and the scene several");
+  if (!good) return GG_REFUSE(err, "line %zu is not one of extended XYZ", i ? i + 2 : 1);
+  if (mixture && species < 0) return GG_REFUSE(err, "Properties has no species, and the scene several");
   to->n = there;
   return GG_OK;
 }

@@ -121,7 +121,7 @@ static gg_status look(gg_output_path *place, const char *path, bool *something, 
 gg_status gg_io_output_path_find(gg_output_path *place, const char *path, gg_error *err)
 {
   *place = (gg_output_path){0};
-  if (!*path) return gg_base_fail(err, GG_BAD_INPUT, "a file to write has an empty name");
+  if (!*path) return GG_REFUSE(err, "a file to write has an empty name");
   bool something = true, named = false;
   gg_status status = GG_OK;
   for (int i = 0; i < MOST_LOOKS && status == GG_OK && something && !named; i++) {

@@ -319,7 +319,7 @@ gg_status gg_plot_chart_finish(gg_chart *c, const gg_plot_paper *paper, const ch
   }
   if (whole) l->n = gg_plot_looks_choose(c, NULL, l->entry, MOST_ENTRIES);
   gg_status status = !whole  ? gg_base_out_of_memory(err)
-                     : !c->n ? gg_base_fail(err, GG_BAD_INPUT, "%s: there is nothing to draw", picture)
+                     : !c->n ? GG_REFUSE(err, "%s: there is nothing to draw", picture)
                              : draw(c, l, paper, picture, err);
   for (size_t i = 0; l && i < c->n; i++) free(l->panel[i].entry);
   gg_plot_chart_free(c);

@@ -108,8 +108,7 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const gg
 static gg_status check_page(const char *path, const char *picture, const char *file, gg_error *err)
 {
   if (gg_io_path_is_same_file(path, file))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture", path, picture);
+    return GG_REFUSE(err, "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture", path, picture);
   return gg_io_atomic_check_writable(path, GG_PICTURES_ARE, err);
 }
 

@@ -63,8 +63,7 @@ gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene,
   unsigned flags;
   if ((gg_measure_user_observables(&r->model) || scene->measure & ~GG_MEASURE_RHEOLOGY) &&
       !(scene->measure & GG_MEASURE_RHEOLOGY))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "measure: add rheology: by it a run knows when the gas is steady and the run is done");
+    return GG_REFUSE(err, "measure: add rheology: by it a run knows when the gas is steady and the run is done");
   GG_TRY(gg_run_measured(scene, &r->model, &flags, err));
   GG_TRY(gg_measure_sampler_init(&r->sampler, &r->model, flags, err));
   return gg_statistics_series_init(&r->series, r->sampler.width, err);

@@ -73,8 +73,8 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
   GG_TRY(gg_common_engine_of(scene->engine)->accepts(changed, err));
   return gg_common_is_same_gas(model, changed)
              ? GG_OK
-             : gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at %g: this value of %s needs other grains or units",
-                            scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
+             : GG_REFUSE(err, "key 'protocol': at %g: this value of %s needs other grains or units",
+                         scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
 }
 
 int gg_run_protocol_changes(const gg_scene *scene, uint64_t k)

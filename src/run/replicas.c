@@ -38,9 +38,9 @@ gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *
 static gg_status check_kind(const gg_archive *a, gg_error *err)
 {
   if (gg_base_archive_find(a, "md/campaign/state") || gg_base_archive_find(a, "dsmc/campaign/state"))
-    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is one of a comparison: only a comparison can resume it");
+    return GG_REFUSE(err, "the checkpoint is one of a comparison: only a comparison can resume it");
   if (gg_base_archive_find(a, "simulation/scene"))
-    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is a saved simulation, not one of a run");
+    return GG_REFUSE(err, "the checkpoint is a saved simulation, not one of a run");
   return GG_OK;
 }
 
@@ -215,9 +215,7 @@ static gg_status check_until(const gg_replicas *all, gg_error *err)
     if (!(all->scene.run.until[q] > 0)) continue;
     const char *why = gg_common_quantity_missing(&all->model, q);
     if (!why && !(all->scene.measure & GG_MEASURE_RHEOLOGY)) why = "measure has no rheology";
-    if (why)
-      return gg_base_fail(err, GG_BAD_INPUT, "run.until: %s has no mean in this scene: %s", gg_common_quantity_name(q),
-                          why);
+    if (why) return GG_REFUSE(err, "run.until: %s has no mean in this scene: %s", gg_common_quantity_name(q), why);
   }
   return GG_OK;
 }

@@ -272,7 +272,7 @@ static gg_status refuse_all(const gg_comparison *c, gg_error *err)
     same &= strcmp(c->refusal[k], c->refusal[0]) == 0;
     snprintf(text + at, sizeof text - at, "%s%s: %s", k ? "; " : "", gg_common_engine_of(k)->name, c->refusal[k]);
   }
-  return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", same ? c->refusal[0] : text);
+  return GG_REFUSE(err, "no engine can run this scene: %s", same ? c->refusal[0] : text);
 }
 
 static gg_status close_parts(part parts[GG_N_ENGINES], gg_comparison *c, gg_error *err)
@@ -340,7 +340,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
     if (resume && status == GG_OK) status = gg_base_archive_nest(&latest[k], name, &parts[k].resume, err);
   }
   if (status == GG_OK && resume && !parts[0].resume.n_items && !parts[1].resume.n_items)
-    status = gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
+    status = GG_REFUSE(err, "the checkpoint is not one of a comparison");
   if (status == GG_OK) status = run_parts(parts, beside, threads, err);
   if (status == GG_OK) status = close_parts(parts, c, err);
   for (int k = 0; k < GG_N_ENGINES; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);

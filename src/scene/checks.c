@@ -86,13 +86,13 @@ static gg_status check_thermostat(const gg_scene *s, gg_error *err)
   if (gg_flow_takes(s->flow, s->thermostat)) return GG_OK;
   if (s->thermostat != GG_NO_THERMOSTAT) {
     gg_common_flows_taking(s->thermostat, text, sizeof text);
-    return gg_base_fail(err, GG_BAD_INPUT, "thermostat: %s does not go with flow: %s; use flow: %s",
-                        gg_common_thermostats[s->thermostat].word, flow, text);
+    return GG_REFUSE(err, "thermostat: %s does not go with flow: %s; use flow: %s",
+                     gg_common_thermostats[s->thermostat].word, flow, text);
   }
   for (int t = GG_NO_THERMOSTAT + 1; t < GG_N_THERMOSTATS; t++)
     if (gg_flow_takes(s->flow, (gg_thermostat)t))
       gg_base_text_append(text, sizeof text, "%s%s", *text ? " or " : "", gg_common_thermostats[t].word);
-  return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a thermostat: %s", flow, text);
+  return GG_REFUSE(err, "flow: %s needs a thermostat: %s", flow, text);
 }
 
 /* Kicks and torques give energy: no gas cools freely with them, nor conserves energy, nor responds at a temperature of
@@ -106,18 +106,18 @@ static gg_status check_injection(const gg_scene *s, gg_error *err)
                                             : "key 'collision.e': above 1 at some speed";
   const gg_heat heat = gg_scene_is_driven(s) ? GG_HEAT_BATHES : gg_common_thermostats[s->thermostat].heat;
   if (s->thermostat == GG_INJECTION && !injected)
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
+    return GG_REFUSE(
+        err,
         "thermostat: injection needs collision.normal_kick, collision.tangential_kick, a torque on rough grains, or a "
         "formula of collision.e above 1");
   if (injected && (flow->conserves || flow->linear_response || gg_flow_cools(s->flow)))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: flow: %s takes no energy from %s; use flow: %s", key, flow->word,
-                        torque || gg_scene_has_kicks(s) ? "kicks and torques" : "contacts", gg_flow_of(GG_HSS)->word);
+    return GG_REFUSE(err, "%s: flow: %s takes no energy from %s; use flow: %s", key, flow->word,
+                     torque || gg_scene_has_kicks(s) ? "kicks and torques" : "contacts", gg_flow_of(GG_HSS)->word);
   if (injected && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: does not go with a thermostat that balances the losses; give %s a value, or "
-                        "use thermostat: bath",
-                        key, gg_scene_strength_of(s->thermostat)->key);
+    return GG_REFUSE(err,
+                     "%s: does not go with a thermostat that balances the losses; give %s a value, or "
+                     "use thermostat: bath",
+                     key, gg_scene_strength_of(s->thermostat)->key);
   return GG_OK;
 }
 
@@ -128,11 +128,11 @@ static gg_status check_gravity(const gg_scene *s, gg_error *err)
   char walled[160];
   if (falls && flow->falling == GG_NEVER_FALLS) {
     gg_common_flow_list(gg_flow_is_walled, walled, sizeof walled);
-    return gg_base_fail(err, GG_BAD_INPUT, "gravity needs a flow with walls: %s", walled);
+    return GG_REFUSE(err, "gravity needs a flow with walls: %s", walled);
   }
   if (!falls && flow->falling == GG_ALWAYS_FALLS)
-    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs gravity, e.g. gravity: [%g, %g, %g]", flow->word,
-                        flow->gravity[0], flow->gravity[1], flow->gravity[2]);
+    return GG_REFUSE(err, "flow: %s needs gravity, e.g. gravity: [%g, %g, %g]", flow->word, flow->gravity[0],
+                     flow->gravity[1], flow->gravity[2]);
   return GG_OK;
 }
 
@@ -143,10 +143,9 @@ static gg_status check_cells(const gg_scene *s, gg_error *err)
   const bool slabs = gg_frame_has_slabs(s->frame);
   const long long n = (long long)s->frame_cells, across = slabs ? 1 : n, cells = n * across * across;
   if (s->frame == GG_FRAME_IMPOSED || gg_flow_is_walled(s->flow) || LEAST_OF_CELL * cells <= s->particles) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'frame_cells': %lld x %lld x %lld %s of %lld grains hold %.2g each; at least %d are needed",
-                      across, n, across, slabs ? "slabs" : "cells", (long long)s->particles,
-                      (double)s->particles / (double)cells, LEAST_OF_CELL);
+  return GG_REFUSE(
+      err, "key 'frame_cells': %lld x %lld x %lld %s of %lld grains hold %.2g each; at least %d are needed", across, n,
+      across, slabs ? "slabs" : "cells", (long long)s->particles, (double)s->particles / (double)cells, LEAST_OF_CELL);
 }
 
 static gg_status check_flow(const gg_scene *s, gg_error *err)
@@ -155,16 +154,15 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
   char cooling[160];
   if (flow->conserves && traits_of(s).lossy) {
     gg_common_flow_list(gg_flow_cools, cooling, sizeof cooling);
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
+    return GG_REFUSE(
+        err,
         "flow: %s needs collisions that lose no energy: collision.e 1, and collision.beta -1 (or 1 with mu "
         "inf); for a cooling gas use flow: %s",
         flow->word, cooling);
   }
   if (flow->wall_temperature[0] > 0 && !walls_are_thermal(s))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "flow: %s needs walls.temperature, e.g. [%g, %g], and walls.accommodation above 0", flow->word,
-                        flow->wall_temperature[0], flow->wall_temperature[1]);
+    return GG_REFUSE(err, "flow: %s needs walls.temperature, e.g. [%g, %g], and walls.accommodation above 0",
+                     flow->word, flow->wall_temperature[0], flow->wall_temperature[1]);
   GG_TRY(check_thermostat(s, err));
   GG_TRY(check_injection(s, err));
   return check_gravity(s, err);
@@ -176,8 +174,8 @@ static gg_status check_friction(const gg_scene *s, gg_error *err)
   if (gg_scene_is_given(s, "collision.beta")) return GG_OK;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++)
     if ((s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY) || s->collision.by_speed.at[GG_OF_MU][p])
-      return gg_base_fail(
-          err, GG_BAD_INPUT,
+      return GG_REFUSE(
+          err,
           "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; give "
           "the beta of sticking contacts, e.g. collision: {beta: 0, mu: %g}",
           s->collision.mu[p]);
@@ -188,9 +186,9 @@ static gg_status check_contact_value(const gg_scene *s, gg_error *err)
 {
   const double most = gg_common_contact_value_limit(s->contact_value);
   if (s->n_species > 1 || s->phi <= most) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'contact_value': the formula holds up to phi = %g; this scene has %g; use carnahan_starling",
-                      most, s->phi);
+  return GG_REFUSE(err,
+                   "key 'contact_value': the formula holds up to phi = %g; this scene has %g; use carnahan_starling",
+                   most, s->phi);
 }
 
 /* True if the gas starts as the scene says: between walls and in sweeps of the shear rate the flow decides. */
@@ -207,8 +205,8 @@ static gg_status check_start(const gg_scene *s, gg_error *err)
   for (const gg_field *f = gg_scene_fields; f->key && !takes_start(s->flow); f++) {
     const char *here = (const char *)s + f->offset, *usual = (const char *)&defaults + f->offset;
     if ((f->when & GG_BIT(GG_IF_STARTED)) && memcmp(here, usual, sizeof(double)) != 0)
-      return gg_base_fail(err, GG_BAD_INPUT, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
-                          gg_flow_of(s->flow)->word, flows);
+      return GG_REFUSE(err, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
+                       gg_flow_of(s->flow)->word, flows);
   }
   return GG_OK;
 }
@@ -221,14 +219,14 @@ static gg_status check_rate(const gg_scene *s, gg_error *err)
   if (formula) {
     for (int i = 0; i < gg_scene_protocol_count(s, INFINITY); i++)
       if (strcmp(s->protocol[i].key, "shear_rate") == 0)
-        return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': shear_rate is a formula; give its changes there");
+        return GG_REFUSE(err, "key 'protocol': shear_rate is a formula; give its changes there");
     return GG_OK;
   }
   if (s->shear.rate > 0 || (s->flow == GG_USF && gg_scene_is_followed(s) && gg_scene_unit_rate(s) > 0)) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'shear_rate': %g is not allowed here; allowed: above 0, and in flow: %s with run.duration "
-                      "below 0, or 0 at the start of a protocol that changes it",
-                      s->shear.rate, gg_flow_of(GG_USF)->word);
+  return GG_REFUSE(err,
+                   "key 'shear_rate': %g is not allowed here; allowed: above 0, and in flow: %s with run.duration "
+                   "below 0, or 0 at the start of a protocol that changes it",
+                   s->shear.rate, gg_flow_of(GG_USF)->word);
 }
 
 /* Each change has to leave a valid scene. */
@@ -239,10 +237,10 @@ static gg_status check_protocol(const gg_scene *s, gg_error *err)
   GG_TRY(check_rate(s, err));
   if (!n) return GG_OK;
   if (!gg_scene_is_followed(s))
-    return gg_base_fail(err, GG_BAD_INPUT, "protocol needs run.duration, the time for which the gas is followed");
+    return GG_REFUSE(err, "protocol needs run.duration, the time for which the gas is followed");
   if (s->protocol[n - 1].at >= s->run.duration)
-    return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at: %g is not allowed; allowed: below run.duration, %g",
-                        s->protocol[n - 1].at, s->run.duration);
+    return GG_REFUSE(err, "key 'protocol': at: %g is not allowed; allowed: below run.duration, %g",
+                     s->protocol[n - 1].at, s->run.duration);
   for (int k = 1; k <= n; k++) {
     gg_status status = gg_scene_protocol_apply(s, k, &changed, err);
     if (status == GG_OK) status = check_flow(&changed, err);
@@ -257,8 +255,7 @@ static gg_status check_duration(const gg_scene *s, gg_error *err)
   char flows[160];
   if (!gg_scene_is_followed(s) || takes_start(s->flow)) return check_protocol(s, err);
   gg_common_flow_list(takes_start, flows, sizeof flows);
-  return gg_base_fail(err, GG_BAD_INPUT, "run.duration does not go with flow: %s; use flow: %s",
-                      gg_flow_of(s->flow)->word, flows);
+  return GG_REFUSE(err, "run.duration does not go with flow: %s; use flow: %s", gg_flow_of(s->flow)->word, flows);
 }
 
 /* Formulas and tables replace collision.law, and a law of the program. */
@@ -268,23 +265,20 @@ static gg_status check_laws(const gg_scene *s, gg_error *err)
              user_defined = gg_common_extension_law(s->extension).e != NULL;
   for (int c = 0; (named || user_defined) && c < GG_N_COEFFICIENTS; c++)
     if (gg_common_speed_laws_have(&s->collision.by_speed, (gg_contact_coefficient)c, gg_pairs_of(s->n_species)))
-      return gg_base_fail(
-          err, GG_BAD_INPUT,
-          "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them "
-          "out",
-          named ? "key 'collision.law'" : "a restitution law of the calling program",
-          gg_common_coefficient_name((gg_contact_coefficient)c));
+      return GG_REFUSE(err,
+                       "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them "
+                       "out",
+                       named ? "key 'collision.law'" : "a restitution law of the calling program",
+                       gg_common_coefficient_name((gg_contact_coefficient)c));
   return GG_OK;
 }
 
 gg_status gg_scene_finish(gg_scene *s, gg_error *err)
 {
-  if (!gg_scene_is_given(s, "flow")) return gg_base_fail(err, GG_BAD_INPUT, "flow is missing, e.g. flow: usf");
-  if (!gg_scene_is_given(s, "phi"))
-    return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
+  if (!gg_scene_is_given(s, "flow")) return GG_REFUSE(err, "flow is missing, e.g. flow: usf");
+  if (!gg_scene_is_given(s, "phi")) return GG_REFUSE(err, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   if (!(s->output.fields & GG_FIELDS_VELOCITY))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
+    return GG_REFUSE(err, "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
   gg_scene_fill_in(s);
   GG_TRY(check_laws(s, err));
   GG_TRY(check_friction(s, err));

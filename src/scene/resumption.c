@@ -57,9 +57,8 @@ static gg_status reject(const char *key, const char *there, const char *here, gg
   char changeable[320] = "";
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (f->may_change) gg_base_text_append(changeable, sizeof changeable, "%s%s", *changeable ? ", " : "", f->key);
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key,
-                      there, here, changeable);
+  return GG_REFUSE(err, "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key,
+                   there, here, changeable);
 }
 
 /* Whether the values of a field are the same in memory; of files that are read, which may have moved, the names. */
@@ -119,8 +118,8 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
   GG_TRY(gg_base_archive_get(a, extension_item, GG_ITEM_U8, there, sizeof there, err));
   there[SIGNATURE - 1] = 0;
   if (strcmp(here, there) == 0) return GG_OK;
-  return gg_base_fail(
-      err, GG_BAD_INPUT,
+  return GG_REFUSE(
+      err,
       "the run was extended by a program (%s), and this scene has %s: register the same law and observables "
       "with the scene before it is resumed",
       *there ? there : "nothing of its own", *here ? here : "nothing of its own");

@@ -203,8 +203,7 @@ static gg_status read_text(int fd, const char *path, char *text, size_t *length,
     *length += (size_t)got;
   }
   if (*length >= 8 && memcmp(text, "\x89HDF\r\n\x1a\n", 8) == 0)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: is an HDF5 file, not a scene (for a result: graingas info, graingas plot)", path);
+    return GG_REFUSE(err, "%s: is an HDF5 file, not a scene (for a result: graingas info, graingas plot)", path);
   return GG_OK;
 }
 

@@ -108,7 +108,7 @@ gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_erro
 {
   struct stat about;
   enum { LONGEST_NAME = 64 }; /* of a file in the folder */
-  if (!*folder) return gg_base_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
+  if (!*folder) return GG_REFUSE(err, "the folder's name is empty: %s", holds);
   if (strlen(folder) + LONGEST_NAME > PATH_MAX) return gg_io_path_write_error(folder, strerror(ENAMETOOLONG), err);
   if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_io_path_write_error(folder, strerror(errno), err);
   if (stat(folder, &about) != 0) return gg_io_path_write_error(folder, strerror(errno), err);

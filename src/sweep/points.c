@@ -276,8 +276,7 @@ static gg_status refuse_number(const gg_sweep *sweep, gg_error *err)
 {
   double n = 1;
   for (size_t f = 0; f < sweep->n_varied; f++) n *= (double)sweep->varied[f].n;
-  return gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep would have %.0f points; allowed: up to %d", sweep->name, n,
-                      GG_MOST_POINTS);
+  return GG_REFUSE(err, "%s: the sweep would have %.0f points; allowed: up to %d", sweep->name, n, GG_MOST_POINTS);
 }
 
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)

@@ -223,8 +223,7 @@ static gg_status once(worker_process *s, bool *any, gg_error *err)
 gg_status gg_worker_run(const gg_messages *messages, gg_error *err)
 {
   if (!messages || !messages->send || !messages->receive || messages->rank < 1)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "gg_worker_run: messages of a rank above 0, with send and receive, are needed");
+    return GG_REFUSE(err, "gg_worker_run: messages of a rank above 0, with send and receive, are needed");
   worker_process s = {.messages = messages, .reported = gg_base_clock_wall()};
   gg_status status = GG_OK;
   bool any = true;

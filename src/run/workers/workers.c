@@ -381,7 +381,7 @@ int gg_workers_threads(const gg_workers *w)
 gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err)
 {
   if (!messages || !workers || !messages->send || !messages->receive || messages->rank != 0 || messages->size < 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_workers_new: messages of rank 0, with send and receive, are needed");
+    return GG_REFUSE(err, "gg_workers_new: messages of rank 0, with send and receive, are needed");
   gg_workers *w = gg_base_array_new(1, sizeof *w, err);
   if (!w) return GG_FAILED;
   w->messages = *messages;
