@@ -113,11 +113,10 @@ static gg_status check_theory(const gg_extension *x, const gg_theory_definition 
   const char *const texts[] = {t->title, t->citation, t->assumptions};
   for (int k = 0; k < 3; k++) GG_TRY(check_text(t->name, texts[k], MOST_TEXT, err));
   if (is_column(t->name))
-    return GG_REFUSE(
-        err,
-        "theory: the name '%s' is reserved for columns of tables; not allowed: quantity, unit, md, dsmc, z, "
-        "correlation_time_unit, beyond_expected, md_..., dsmc_..., ..._error",
-        t->name);
+    return GG_REFUSE(err,
+                     "theory: the name '%s' is reserved for columns of tables; not allowed: quantity, unit, md, dsmc, "
+                     "z, correlation_time_unit, beyond_expected, md_..., dsmc_..., ..._error",
+                     t->name);
   bool taken = gg_theory_find(t->name) != NULL;
   for (int k = 0; k < gg_common_extension_theories(x); k++)
     taken |= strcmp(gg_common_extension_theory(x, k)->name, t->name) == 0;

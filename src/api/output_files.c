@@ -83,11 +83,10 @@ static gg_status check_ending(const char *output, gg_error *err)
   const char *ending = output ? strrchr(output, '.') : NULL;
   for (size_t i = 0; ending && i < sizeof pictures / sizeof *pictures; i++)
     if (strcasecmp(ending, pictures[i]) == 0)
-      return GG_REFUSE(
-          err,
-          "%s: has the name of a picture, and results are HDF5: choose FILE.h5 for the output; pictures are "
-          "drawn by `compare --picture` and `graingas plot`",
-          output);
+      return GG_REFUSE(err,
+                       "%s: has the name of a picture, and results are HDF5: choose FILE.h5 for the output; pictures "
+                       "are drawn by `compare --picture` and `graingas plot`",
+                       output);
   return GG_OK;
 }
 

@@ -48,10 +48,9 @@ static gg_status find_page(char page[PATH_MAX + 16], gg_error *err)
                         "(./check --page installs that); or name a page: graingas page --page FILE",
                         page);
   if (!*folder || (is_safe(folder) && is_safe(page))) return GG_OK;
-  return gg_base_fail(err, GG_BAD_FILE,
-                      "%s: others can write there, and could put another page in its place; "
-                      "chmod go-w its folder and the file",
-                      page);
+  return gg_base_fail(
+      err, GG_BAD_FILE,
+      "%s: others can write there, and could put another page in its place; chmod go-w its folder and the file", page);
 }
 
 static gg_status read_all(FILE *in, const char *path, char **text, gg_error *err)

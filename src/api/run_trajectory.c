@@ -86,11 +86,10 @@ static gg_status open_earlier(gg_api_run_call *r, gg_frame_log *earlier, gg_erro
   gg_status status = open_one_of_two(r, earlier, path, &mark, &why);
   if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_base_fail(err, status, "%s", why.message);
   r->resume_lost = true;
-  return gg_base_fail(
-      err, status,
-      "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it the "
-      "run can be resumed with output.trajectory_every: 0",
-      why.message, (unsigned long long)mark.frames);
+  return gg_base_fail(err, status,
+                      "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it "
+                      "the run can be resumed with output.trajectory_every: 0",
+                      why.message, (unsigned long long)mark.frames);
 }
 
 /* File name of a path, without folders. */

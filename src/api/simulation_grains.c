@@ -157,8 +157,8 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
   if (!may_change(key))
     return GG_REFUSE(err,
                      "key '%.60s': cannot be changed on the way; allowed: " GG_PROTOCOL_KEYS
-                     ", md.contact_time, dsmc.time_step, "
-                     "walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity",
+                     ", md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, "
+                     "walls.accommodation, gravity",
                      key);
   GG_USE_ALONE(simulation);
   gg_scene changed = simulation->scene;

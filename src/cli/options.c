@@ -265,10 +265,10 @@ static int take_extended(gg_options *o)
   o->state = o->resume ? strdup(o->resume) : gg_cli_path_of_checkpoint(o->extend);
   if (!o->state) return gg_cli_fail(GG_FAILED, "out of memory");
   if (!gg_cli_file_exists(o->state))
-    return gg_cli_fail(GG_BAD_FILE,
-                       "%s: has no state to continue from: %s is not there (it stays after a run of a scene "
-                       "with output.state: kept)",
-                       o->extend, o->state);
+    return gg_cli_fail(
+        GG_BAD_FILE,
+        "%s: has no state to continue from: %s is not there (it stays after a run of a scene with output.state: kept)",
+        o->extend, o->state);
   o->input = o->extend, o->resume = o->state;
   if (!o->output) o->output = o->extend;
   return GG_CLI_GO_ON;

@@ -46,10 +46,8 @@ static gg_status choose_width(gg_plot_paper *paper, const char *width, gg_error 
   for (size_t i = 0; i < sizeof units / sizeof *units; i++)
     if (end > width && strcmp(end, units[i].name) == 0) points = number * units[i].points;
   if (!(points >= least * 0.999 && points <= most * 1.001))
-    return GG_REFUSE(err,
-                     "'%.40s' is no width of a picture: a number with mm, cm, in or pt, from 40mm to 1000mm, e.g. "
-                     "86mm",
-                     width);
+    return GG_REFUSE(
+        err, "'%.40s' is no width of a picture: a number with mm, cm, in or pt, from 40mm to 1000mm, e.g. 86mm", width);
   paper->width = points * 12 / 8;
   return GG_OK;
 }

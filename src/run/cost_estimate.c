@@ -134,11 +134,11 @@ gg_status gg_run_cost_check_memory(const gg_cost_estimate *f, const char *engine
   put_bytes(f->bytes, needed);
   put_bytes(available, there);
   put_bytes(f->engine + f->observables + f->series, one);
-  return gg_base_fail(
-      err, GG_FAILED,
-      "%s: the run would need about %s of memory (%s a replica, of which there are %lld), and there are %s; "
-      "ask for fewer %s, replicas or observables",
-      engine, needed, one, (long long)replicas, there, strcmp(engine, "dsmc") == 0 ? "dsmc.particles" : "particles");
+  return gg_base_fail(err, GG_FAILED,
+                      "%s: the run would need about %s of memory (%s a replica, of which there are %lld), and there "
+                      "are %s; ask for fewer %s, replicas or observables",
+                      engine, needed, one, (long long)replicas, there,
+                      strcmp(engine, "dsmc") == 0 ? "dsmc.particles" : "particles");
 }
 
 /* "3 s", "12 min", "4 h", "20 days" */

@@ -232,11 +232,10 @@ static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint6
   bool runaway = !(per_grain < 1000 * elapsed * gg_common_model_collision_rate(&r->model, r->clock.temperature));
   if (runaway || r->clock.cut_short >= MOST_CUT_SHORT) return gg_run_replica_collapsed(r, err);
   if (adapt) return GG_OK;
-  return gg_base_fail(
-      err, GG_FAILED,
-      "%s: collisions come a thousand times faster near time %g than when averaging began: the gas still "
-      "heats up; give run.warmup a larger value",
-      r->engine->ops->name, r->clock.time);
+  return gg_base_fail(err, GG_FAILED,
+                      "%s: collisions come a thousand times faster near time %g than when averaging began: the gas "
+                      "still heats up; give run.warmup a larger value",
+                      r->engine->ops->name, r->clock.time);
 }
 
 /* Set the interval of a transient run to end at the next sampling time, in the engine's units; rounding may have left

@@ -36,10 +36,9 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
   GG_TRY(gg_run_replicas_report(all, result, err)); /* out of memory: half a result is none */
   GG_HAND_OVER(out, result);
   if (has_other_numerics(&all->scene))
-    gg_run_result_warn(*out,
-                       "continued to another relative error: the ensemble and the time step are those chosen for "
-                       "%.3g %%",
-                       100 * gg_scene_ensemble_size_error(&all->scene));
+    gg_run_result_warn(
+        *out, "continued to another relative error: the ensemble and the time step are those chosen for %.3g %%",
+        100 * gg_scene_ensemble_size_error(&all->scene));
   return gg_run_replicas_check_end(all, err);
 }
 

@@ -106,18 +106,15 @@ static gg_status check_injection(const gg_scene *s, gg_error *err)
                                             : "key 'collision.e': above 1 at some speed";
   const gg_heat heat = gg_scene_is_driven(s) ? GG_HEAT_BATHES : gg_common_thermostats[s->thermostat].heat;
   if (s->thermostat == GG_INJECTION && !injected)
-    return GG_REFUSE(
-        err,
-        "thermostat: injection needs collision.normal_kick, collision.tangential_kick, a torque on rough grains, or a "
-        "formula of collision.e above 1");
+    return GG_REFUSE(err, "thermostat: injection needs collision.normal_kick, collision.tangential_kick, a torque on "
+                          "rough grains, or a formula of collision.e above 1");
   if (injected && (flow->conserves || flow->linear_response || gg_flow_cools(s->flow)))
     return GG_REFUSE(err, "%s: flow: %s takes no energy from %s; use flow: %s", key, flow->word,
                      torque || gg_scene_has_kicks(s) ? "kicks and torques" : "contacts", gg_flow_of(GG_HSS)->word);
   if (injected && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
-    return GG_REFUSE(err,
-                     "%s: does not go with a thermostat that balances the losses; give %s a value, or "
-                     "use thermostat: bath",
-                     key, gg_scene_strength_of(s->thermostat)->key);
+    return GG_REFUSE(
+        err, "%s: does not go with a thermostat that balances the losses; give %s a value, or use thermostat: bath",
+        key, gg_scene_strength_of(s->thermostat)->key);
   return GG_OK;
 }
 
@@ -154,11 +151,10 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
   char cooling[160];
   if (flow->conserves && traits_of(s).lossy) {
     gg_common_flow_list(gg_flow_cools, cooling, sizeof cooling);
-    return GG_REFUSE(
-        err,
-        "flow: %s needs collisions that lose no energy: collision.e 1, and collision.beta -1 (or 1 with mu "
-        "inf); for a cooling gas use flow: %s",
-        flow->word, cooling);
+    return GG_REFUSE(err,
+                     "flow: %s needs collisions that lose no energy: collision.e 1, and collision.beta -1 (or 1 with "
+                     "mu inf); for a cooling gas use flow: %s",
+                     flow->word, cooling);
   }
   if (flow->wall_temperature[0] > 0 && !walls_are_thermal(s))
     return GG_REFUSE(err, "flow: %s needs walls.temperature, e.g. [%g, %g], and walls.accommodation above 0",
@@ -174,11 +170,10 @@ static gg_status check_friction(const gg_scene *s, gg_error *err)
   if (gg_scene_is_given(s, "collision.beta")) return GG_OK;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++)
     if ((s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY) || s->collision.by_speed.at[GG_OF_MU][p])
-      return GG_REFUSE(
-          err,
-          "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; give "
-          "the beta of sticking contacts, e.g. collision: {beta: 0, mu: %g}",
-          s->collision.mu[p]);
+      return GG_REFUSE(err,
+                       "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; "
+                       "give the beta of sticking contacts, e.g. collision: {beta: 0, mu: %g}",
+                       s->collision.mu[p]);
   return GG_OK;
 }
 
@@ -265,11 +260,10 @@ static gg_status check_laws(const gg_scene *s, gg_error *err)
              user_defined = gg_common_extension_law(s->extension).e != NULL;
   for (int c = 0; (named || user_defined) && c < GG_N_COEFFICIENTS; c++)
     if (gg_common_speed_laws_have(&s->collision.by_speed, (gg_contact_coefficient)c, gg_pairs_of(s->n_species)))
-      return GG_REFUSE(err,
-                       "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them "
-                       "out",
-                       named ? "key 'collision.law'" : "a restitution law of the calling program",
-                       gg_common_coefficient_name((gg_contact_coefficient)c));
+      return GG_REFUSE(
+          err, "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them out",
+          named ? "key 'collision.law'" : "a restitution law of the calling program",
+          gg_common_coefficient_name((gg_contact_coefficient)c));
   return GG_OK;
 }
 

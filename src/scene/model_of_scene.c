@@ -12,12 +12,11 @@ static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *er
 {
   for (int i = 0; m->n_species > 1 && i < m->n_species; i++)
     if (m->n_of[i] < 2)
-      return GG_REFUSE(
-          err,
-          "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s a "
-          "larger value",
-          s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
-          m->ensemble ? "dsmc.particles" : "particles");
+      return GG_REFUSE(err,
+                       "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s "
+                       "a larger value",
+                       s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
+                       m->ensemble ? "dsmc.particles" : "particles");
   return GG_OK;
 }
 
@@ -107,8 +106,8 @@ static gg_status check_start(const gg_model *m, const gg_scene *s, gg_error *err
   const double T = gg_units_temperature(m->unit, s->start.temperature), unit = s->start.temperature / T;
   if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
   return GG_REFUSE(err,
-                   "start.temperature: %g is %.3g mass x (diameter x shear_rate)^2; allowed in sheared flows: from "
-                   "%g to %g of that, here %.3g to %.3g, or auto",
+                   "start.temperature: %g is %.3g mass x (diameter x shear_rate)^2; allowed in sheared flows: from %g "
+                   "to %g of that, here %.3g to %.3g, or auto",
                    s->start.temperature, T, starts_within[0], starts_within[1], starts_within[0] * unit,
                    starts_within[1] * unit);
 }
@@ -205,11 +204,10 @@ static gg_status check_ridges(const gg_model *m, const gg_scene *s, gg_error *er
     return GG_REFUSE(err, "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
                      s->walls.ridges);
   if (s->walls.ridges > 2 * length)
-    return GG_REFUSE(
-        err,
-        "walls.ridges: %g in a box that is %.4g long along x; allowed: up to %.4g, of which one is made that "
-        "is as wide as the box",
-        s->walls.ridges, length, 2 * length);
+    return GG_REFUSE(err,
+                     "walls.ridges: %g in a box that is %.4g long along x; allowed: up to %.4g, of which one is made "
+                     "that is as wide as the box",
+                     s->walls.ridges, length, 2 * length);
   return GG_OK;
 }
 

@@ -118,11 +118,10 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
   GG_TRY(gg_base_archive_get(a, extension_item, GG_ITEM_U8, there, sizeof there, err));
   there[SIGNATURE - 1] = 0;
   if (strcmp(here, there) == 0) return GG_OK;
-  return GG_REFUSE(
-      err,
-      "the run was extended by a program (%s), and this scene has %s: register the same law and observables "
-      "with the scene before it is resumed",
-      *there ? there : "nothing of its own", *here ? here : "nothing of its own");
+  return GG_REFUSE(err,
+                   "the run was extended by a program (%s), and this scene has %s: register the same law and "
+                   "observables with the scene before it is resumed",
+                   *there ? there : "nothing of its own", *here ? here : "nothing of its own");
 }
 
 gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)

@@ -107,8 +107,8 @@ gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t
     value_text(value, there, sizeof there);
     value_text(wanted, here, sizeof here);
     return gg_base_fail(err, GG_BAD_FILE,
-                        "%s: holds another point: %s is %s there, and %s at the point of this name; "
-                        "remove it, and the point is done again",
+                        "%s: holds another point: %s is %s there, and %s at the point of this name; remove it, and the "
+                        "point is done again",
                         path, f->key, there, here);
   }
   return GG_OK;

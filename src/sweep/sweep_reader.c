@@ -201,10 +201,10 @@ static gg_status add_zipped(const gg_scene_reader *r, gg_sweep *sweep, value_lis
   GG_TRY(reject_range(r, l));
   for (size_t k = 1; k < l->n; k++)
     if (l->values[k].n != l->values[0].n)
-      return gg_scene_reject(r, l->node[k], l->values[k].key,
-                             "has %zu values, and %s, which goes with it, has %zu; keys of one map in a list change "
-                             "together",
-                             l->values[k].n, l->values[0].key, l->values[0].n);
+      return gg_scene_reject(
+          r, l->node[k], l->values[k].key,
+          "has %zu values, and %s, which goes with it, has %zu; keys of one map in a list change together",
+          l->values[k].n, l->values[0].key, l->values[0].n);
   return l->n ? place(r, l->node[0], gg_sweep_add_rows(sweep, l->values, l->n, r->err)) : GG_OK;
 }
 
