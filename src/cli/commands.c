@@ -12,9 +12,8 @@ const gg_command gg_cli_commands[] = {
      gg_cli_compare_main},
     {"run", "SCENE.yaml", "One engine: the scene's, or the one of --engine",
      "With output.checkpoint_every above 0 in the scene, the run keeps a checkpoint beside the result "
-     "(usf.checkpoint.h5 for usf.h5) and removes it at the end. --resume continues from it with bit-identical "
-     "results. With output.state: kept the last checkpoint stays, and --extend RESULT continues a finished run to "
-     "other "
+     "(usf.checkpoint.h5 for usf.h5) and removes it at the end. --resume continues from it with bit-identical results. "
+     "With output.state: kept the last checkpoint stays, and --extend RESULT continues a finished run to other "
      "stopping criteria, e.g. --set run.relative_error=0.001, with the bits of a run that had them from the "
      "start.\nmpirun -n 4 graingas run SCENE.yaml distributes the replicas over four processes with bit-identical "
      "results; so does compare.",
@@ -81,19 +80,17 @@ const gg_command gg_cli_commands[] = {
      "Speed of the engines: collisions per second by kernel, density and size; run time against error",
      "Without an argument: both engines in uniform shear at e = 0.9 with the stress measured, one core, median of "
      "repeats; then single scenes: white noise, walls, placing grains, two threads.\nmd: elastic smooth spheres by "
-     "size and density; cost of roughness, shear, walls, gravity, white noise, a second "
-     "species and stress measurement; gain of threads within one run.\ndsmc: nanoseconds per accepted collision; gain "
-     "of the block kernels over the "
-     "plain loop and of threads within one ensemble.\nobservables: run time that each observable adds, for both "
-     "engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a table a state "
-     "of uniform shear and free cooling, over engines, numbers of grains, time steps, precision and replicas. "
-     "--picture "
-     "e.svg draws e_<state>.svg: error against time of the best of each engine, theories as bars. --quick takes two or "
-     "three minutes, the full run most of an hour. Use an idle machine.\n--json prints a line of JSON for each row: "
-     "name, unit, value (the median), lowest and highest of the repeats, threads, machine, version with commit, "
-     "instructions and time.\ncompare A B: for each row of two such files the time in B over that in A with its "
-     "spread, and which are slower or faster beyond it. With --limit 10 the exit code is 1 if a row is slower by more "
-     "than 10 % beyond its spread. The last row of a name counts.",
+     "size and density; cost of roughness, shear, walls, gravity, white noise, a second species and stress "
+     "measurement; gain of threads within one run.\ndsmc: nanoseconds per accepted collision; gain of the block "
+     "kernels over the plain loop and of threads within one ensemble.\nobservables: run time that each observable "
+     "adds, for both engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a "
+     "table a state of uniform shear and free cooling, over engines, numbers of grains, time steps, precision and "
+     "replicas. --picture e.svg draws e_<state>.svg: error against time of the best of each engine, theories as bars. "
+     "--quick takes two or three minutes, the full run most of an hour. Use an idle machine.\n--json prints a line of "
+     "JSON for each row: name, unit, value (the median), lowest and highest of the repeats, threads, machine, version "
+     "with commit, instructions and time.\ncompare A B: for each row of two such files the time in B over that in A "
+     "with its spread, and which are slower or faster beyond it. With --limit 10 the exit code is 1 if a row is slower "
+     "by more than 10 % beyond its spread. The last row of a name counts.",
      gg_cli_bench_main},
     {0},
 };

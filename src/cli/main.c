@@ -15,11 +15,10 @@
 
 static void print_help(void)
 {
-  gg_cli_print_paragraph(
-      stdout, 0,
-      "graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog Monte "
-      "Carlo and theory\n\nUsage: graingas COMMAND ...\n",
-      gg_version());
+  gg_cli_print_paragraph(stdout, 0,
+                         "graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog "
+                         "Monte Carlo and theory\n\nUsage: graingas COMMAND ...\n",
+                         gg_version());
   for (const gg_command *c = gg_cli_commands; c->name; c++) {
     char left[64], lead[80];
     snprintf(left, sizeof left, "%s %s", c->name, c->arguments);

@@ -43,16 +43,15 @@ static gg_word thermostat_word(int i)
 
 #define ENGINE_WORD(KIND, name, title) {#name, GG_##KIND, title},
 static const gg_word engines[] = {GG_ENGINES(ENGINE_WORD){0}};
-static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
-                                         {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
-                                         {"kolafa", GG_KOLAFA, "from the accurate equation of state; phi up to 0.55"},
-                                         {"vescovi2014", GG_VESCOVI,
-                                          "sheared smooth spheres: carnahan_starling up to phi = 0.4, above it a "
-                                          "smooth change to 2/(0.636 - phi)"},
-                                         {"chialvo_sundaresan2013", GG_CHIALVO_SUNDARESAN,
-                                          "sheared smooth spheres: carnahan_starling plus "
-                                          "0.58 phi^2/(0.636 - phi)^(3/2)"},
-                                         {0}};
+static const gg_word contact_values[] = {
+    {"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
+    {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
+    {"kolafa", GG_KOLAFA, "from the accurate equation of state; phi up to 0.55"},
+    {"vescovi2014", GG_VESCOVI,
+     "sheared smooth spheres: carnahan_starling up to phi = 0.4, above it a smooth change to 2/(0.636 - phi)"},
+    {"chialvo_sundaresan2013", GG_CHIALVO_SUNDARESAN,
+     "sheared smooth spheres: carnahan_starling plus 0.58 phi^2/(0.636 - phi)^(3/2)"},
+    {0}};
 static const gg_word precisions[] = {
     {"double", GG_DOUBLE, "relative precision 1e-16"},
     {"single", GG_SINGLE, "relative precision 1e-7, half the memory, up to 1.5 times as fast"},
@@ -167,9 +166,8 @@ const gg_field gg_scene_fields[] = {
      .doc = "initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0",
      .when = IF(STARTED) | IF(ROUGH)},
     {KEY(FILE, start.positions), .words = placements, .special = "random",
-     .doc =
-         "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, "
-         "without overlaps; its path is relative to the scene's file, and only a start reads it",
+     .doc = "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of "
+            "length, without overlaps; its path is relative to the scene's file, and only a start reads it",
      .when = IF(MD), .reads = true},
     {KEY(VECTOR, aspect), 0.01, 100, .by_default = 1, .doc = "shape of the box: ratio of its edges x : y : z",
      .when = IF(BOXED), .also = "box"},

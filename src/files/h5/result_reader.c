@@ -145,10 +145,8 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
   const bool checkpoint = !in->failed && gg_h5_exists(in, "/checkpoint");
   if (checkpoint) gg_files_checkpoint_check_version(in, true);
   if (checkpoint && !in->failed)
-    gg_h5_in_failed(
-        in,
-        "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE, or load it where a simulation was "
-        "saved");
+    gg_h5_in_failed(in, "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE, or load it where a "
+                        "simulation was saved");
   if (!in->failed && gg_h5_exists(in, "/graingas/table"))
     gg_h5_in_failed(in, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
   if (!in->failed && !gg_h5_exists(in, "/graingas/document")) gg_h5_in_failed(in, "it holds no result of graingas");
