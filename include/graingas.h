@@ -711,6 +711,14 @@ typedef struct gg_checkpoint_info {
  */
 GG_API gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err);
 
+/**
+ * Whether a result is of the run that a checkpoint continues: by the keys that cannot change on resume.
+ * @param path checkpoint
+ * @param result_file result of a run or of a comparison
+ * @return GG_OK; GG_BAD_INPUT names the first key that differs; GG_BAD_FILE
+ */
+GG_API gg_status gg_checkpoint_check_result(const char *path, const char *result_file, gg_error *err);
+
 /* ---- Results ---- */
 
 typedef struct gg_measurement {

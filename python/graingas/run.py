@@ -146,6 +146,8 @@ def extend(result, threads: Optional[int] = 1, output=None, progress: Union[bool
         raise BadFile(f"{result}: has no state to continue from: {state} is not there (it stays after a run of a scene with "
                       "output.state: kept)")
     info = ffi.new("gg_checkpoint_info *")
+    if os.path.exists(result):
+        check(lib.gg_checkpoint_check_result, encode(state, "file name"), encode(result, "file name"))
     status = lib.gg_checkpoint_about(encode(state, "file name"), info, made, error)
     if status != lib.GG_OK:
         raise exception(status, error)

@@ -141,5 +141,5 @@ def test_paths_are_relative_to_the_scene_and_only_a_start_reads_the_file():
     os.remove("folder/a.xyz")
     longer = gg.extend("part.h5", **{"run.collisions": 200})
     assert longer["temperature"].mean == whole["temperature"].mean
-    with pytest.raises(gg.BadFile, match="cannot be read"):
-        gg.Simulation(gg.Scene("folder/scene.yaml"))
+    with pytest.raises(gg.BadInput, match="folder/scene.yaml:1: key 'start.positions': .*folder/a.xyz: cannot be read"):
+        gg.Scene("folder/scene.yaml")

@@ -34,6 +34,9 @@ gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *e
 /* text.c: GG_BAD_INPUT for an unknown quantity, with a spelling suggestion. */
 gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err);
 
+/* comparison.c: for GG_CLEARED. */
+void gg_api_comparison_freed(gg_comparison **comparison);
+
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err);
 /* text.c: a document as text; releases the document (NULL: out of memory). */
 gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err);

@@ -17,16 +17,9 @@
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
 
-static const char *const type_names[] = {
-    [GG_FIELD_NUMBER] = "number", [GG_FIELD_INTEGER] = "integer", [GG_FIELD_CHOICE] = "choice",
-    [GG_FIELD_SET] = "set",       [GG_FIELD_PAIRS] = "pairs",     [GG_FIELD_ERRORS] = "errors",
-    [GG_FIELD_VECTOR] = "vector", [GG_FIELD_ENDS] = "ends",       [GG_FIELD_FILE] = "file",
-    [GG_FIELD_RATE] = "rate",     [GG_FIELD_CHANGES] = "changes", [GG_FIELD_SPECIES] = "species",
-    [GG_FIELD_LIST] = "list"};
-
 static gg_status no_more(gg_error *err)
 {
-  return gg_base_fail(err, GG_BAD_INPUT, "there are no more entries");
+  return GG_REFUSE(err, "there are no more entries");
 }
 
 /* The i-th row of a table that ends with a NULL key; NULL after the last. */
@@ -40,15 +33,14 @@ static const gg_field *field_at(const gg_field *fields, size_t i)
 /* Set the value of a key. */
 static void put_value(const gg_field *f, const void *base, const gg_scene *scene, gg_entry *entry)
 {
-  json_t *value = gg_scene_field_json(f, base, scene);
+  json_auto_t *value = gg_scene_field_json(f, base, scene);
   gg_scene_flow_style_text(value, entry->value, sizeof entry->value);
-  json_decref(value);
 }
 
 static gg_status field_entry(const gg_field *f, gg_entry *entry, gg_error *err)
 {
   if (!f) return no_more(err);
-  *entry = (gg_entry){.name = f->key, .doc = f->doc, .unit = f->unit, .type = type_names[f->type]};
+  *entry = (gg_entry){.name = f->key, .doc = f->doc, .unit = f->unit, .type = gg_scene_kinds[f->type].name};
   gg_scene_field_allowed(f, entry->allowed, sizeof entry->allowed);
   gg_scene_field_when(f, entry->when, sizeof entry->when);
   return GG_OK;
@@ -79,7 +71,7 @@ static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error
 {
   int id = gg_scene_field_find(key);
   if (id < 0 || !gg_scene_field_word(&gg_scene_fields[id], 0).name)
-    return gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s' that takes words", key);
+    return GG_REFUSE(err, "a scene has no key '%.60s' that takes words", key);
   gg_word word;
   size_t k = 0;
   while ((word = gg_scene_field_word(&gg_scene_fields[id], (int)k)).name && k < i) k++;
@@ -209,5 +201,5 @@ gg_status gg_catalogue_entry(gg_catalogue catalogue, size_t i, const gg_scene *s
   case GG_CATALOGUE_QUANTITIES: return quantity_entry(i, scene, entry, err);
   case GG_CATALOGUE_THEORIES: return theory_entry(i, scene, entry, err);
   }
-  return gg_base_fail(err, GG_BAD_INPUT, "gg_catalogue_entry: there is no such catalogue");
+  return GG_REFUSE(err, "gg_catalogue_entry: there is no such catalogue");
 }

@@ -24,6 +24,11 @@ void gg_comparison_free(gg_comparison *c)
   free(c);
 }
 
+void gg_api_comparison_freed(gg_comparison **comparison)
+{
+  gg_comparison_free(*comparison);
+}
+
 static gg_status choose_theories(const gg_model *model, const char *names, bool wanted[GG_MOST_THEORIES], gg_error *err)
 {
   for (const char *at = names; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
@@ -36,9 +41,8 @@ static gg_status choose_theories(const gg_model *model, const char *names, bool 
     while (i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)) && strcmp(theory->name, name) != 0)
       gg_base_spelling_try(&nearest, theory->name), i++;
     if (i == GG_MOST_THEORIES || !theory)
-      return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%s'%s%s%s", name,
-                          nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
-                          nearest.best ? "'?" : "");
+      return GG_REFUSE(err, "there is no theory called '%s'%s%s%s", name, nearest.best ? "; did you mean '" : "",
+                       nearest.best ? nearest.best : "", nearest.best ? "'?" : "");
     wanted[i] = true;
   }
   return GG_OK;
@@ -66,39 +70,29 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
   GG_NEED(scene, comparison);
   gg_api_request request = {stop, context, false};
   const unsigned before = gg_base_memory_failures();
-  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
-  gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  GG_FREED gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
   gg_status status =
       model ? evaluate(c, scene, theory, &(gg_stop){gg_api_is_requested, &request}, model, err) : GG_FAILED;
-  status = gg_base_memory_check(before, gg_base_callback_settle(status, err), err);
-  free(model);
-  if (status == GG_OK)
-    *comparison = c;
-  else
-    gg_comparison_free(c);
-  return status;
+  GG_TRY(gg_base_memory_check(before, gg_base_callback_settle(status, err), err));
+  return GG_HAND_OVER(comparison, c), GG_OK;
 }
 
 gg_status gg_theory_local_fluxes(const gg_scene *scene, const char *theory, size_t n, const gg_local_state *state,
                                  gg_local_fluxes *fluxes, gg_error *err)
 {
   GG_NEED(scene, theory, state, fluxes);
-  gg_comparison *c;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = NULL;
   GG_TRY(gg_theories_evaluate(scene, theory, NULL, NULL, &c, err));
-  const gg_status status = gg_theory_fluxes(c->theory[0].theory, &c->model, n, state, fluxes, err);
-  gg_comparison_free(c);
-  return status;
+  return gg_theory_fluxes(c->theory[0].theory, &c->model, n, state, fluxes, err);
 }
 
 /* Whether the scenes differ only in the engine and in keys that may change on resume. */
 static bool same_scene(const gg_scene *one, gg_scene other)
 {
-  gg_archive keys = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive keys = {0};
   other.engine = one->engine;
-  bool same =
-      gg_scene_resumption_put(&other, &keys, NULL) == GG_OK && gg_scene_resumption_check(one, &keys, NULL) == GG_OK;
-  gg_base_archive_clear(&keys);
-  return same;
+  return gg_scene_resumption_put(&other, &keys, NULL) == GG_OK && gg_scene_resumption_check(one, &keys, NULL) == GG_OK;
 }
 
 gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_error *err)
@@ -107,10 +101,9 @@ gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_er
   gg_engine_kind kind;
   GG_TRY(gg_api_engine_find(result->engine, &kind, err));
   if (comparison->document)
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison read from a file cannot be changed");
+    return GG_REFUSE(err, "gg_comparison_take: a comparison read from a file cannot be changed");
   if (!same_scene(comparison->scene, *result->scene))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "gg_comparison_take: the result belongs to another scene than the comparison");
+    return GG_REFUSE(err, "gg_comparison_take: the result belongs to another scene than the comparison");
   gg_result_free(comparison->by_engine[kind]);
   comparison->by_engine[kind] = result;
   return GG_OK;
@@ -151,8 +144,7 @@ gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_compari
 {
   GG_NEED(comparison, row);
   const gg_quantity_rows *rows = &comparison->rows;
-  if (i >= (size_t)rows->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_at: there are %d quantities", rows->n);
+  if (i >= (size_t)rows->n) return GG_REFUSE(err, "gg_comparison_at: there are %d quantities", rows->n);
   gg_run_comparison_row(comparison, &rows->row[i], row);
   return GG_OK;
 }
@@ -190,8 +182,7 @@ gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_the
 {
   GG_NEED(comparison, theory);
   const gg_comparison *c = comparison;
-  if (i >= (size_t)c->n_theories)
-    return gg_base_fail(err, GG_BAD_INPUT, "this comparison has %d theories", c->n_theories);
+  if (i >= (size_t)c->n_theories) return GG_REFUSE(err, "this comparison has %d theories", c->n_theories);
   const gg_theory *t = c->theory[i].theory;
   const bool applies = c->theory[i].applies;
   const char *remark = c->theory[i].answer.remark;
@@ -208,7 +199,7 @@ static gg_status find_theory(const gg_comparison *c, const char *theory, int *i,
 {
   for (*i = 0; *i < c->n_theories; ++*i)
     if (strcmp(c->theory[*i].theory->name, theory) == 0) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
+  return GG_REFUSE(err, "there is no theory called '%.60s' here", theory);
 }
 
 static gg_status find_answer(const gg_comparison *c, const char *theory, const char *quantity, int *i, gg_quantity *q,
@@ -244,11 +235,10 @@ gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const ch
   GG_TRY(find_theory(comparison, theory, &i, err));
   const double rate = comparison->theory[i].answer.value[GG_Q_COOLING_RATE];
   if (!gg_flow_cools(m->flow) || m->rule != GG_SMOOTH || m->n_species > 1 || m->law.name)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "Haff's law holds for equal smooth grains that cool freely with a constant e");
+    return GG_REFUSE(err, "Haff's law holds for equal smooth grains that cool freely with a constant e");
   if (!comparison->theory[i].applies || !isfinite(rate))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s gives no cooling rate for this scene", theory);
-  if (!(time >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "%s: the time %g is before the start", theory, time);
+    return GG_REFUSE(err, "%s gives no cooling rate for this scene", theory);
+  if (!(time >= 0)) return GG_REFUSE(err, "%s: the time %g is before the start", theory, time);
   const double T0 = m->temperature0;
   *temperature = gg_theory_haff_temperature(T0, rate * gg_common_model_nu0(m, T0), time);
   return GG_OK;
@@ -270,9 +260,8 @@ static gg_status find_curve(const gg_comparison *c, const char *theory, size_t i
   int k;
   GG_TRY(find_theory(c, theory, &k, err));
   const gg_curves *curves = &c->theory[k].curves;
-  if (i >= (size_t)curves->n) return gg_base_fail(err, GG_BAD_INPUT, "%s has %d curves here", theory, curves->n);
-  *curve = &curves->curve[i];
-  return GG_OK;
+  if (i >= (size_t)curves->n) return GG_REFUSE(err, "%s has %d curves here", theory, curves->n);
+  return *curve = &curves->curve[i], GG_OK;
 }
 
 gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
@@ -300,7 +289,7 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
   gg_run_theory_remark theories[GG_MOST_THEORIES];
   const size_t causes = (size_t)comparison->causes.n;
   const size_t n = causes + (size_t)gg_run_theory_remarks(comparison, theories);
-  if (i >= n) return gg_base_fail(err, GG_BAD_INPUT, "this comparison has %zu remarks", n);
+  if (i >= n) return GG_REFUSE(err, "this comparison has %zu remarks", n);
   if (i < causes) {
     *remark = (gg_remark){.deviation = NAN, .cause = comparison->causes.text[i]};
   } else {
@@ -324,7 +313,7 @@ gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg
 static gg_status first_of(const gg_comparison *c, const char *path, const gg_result **run, gg_error *err)
 {
   *run = gg_run_comparison_first(c);
-  return *run ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
+  return *run ? GG_OK : GG_REFUSE(err, "%s: not written: nothing was simulated", path);
 }
 
 gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, int (*stop)(void *context),
@@ -345,29 +334,26 @@ gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, 
   return gg_api_file_to_bytes(run, comparison->of_one ? NULL : comparison, __func__, bytes, size, err);
 }
 
-/* The comparison of a stored result that was read with this status; clears the stored one. */
-static gg_status restore(gg_status status, gg_stored_result *stored, gg_comparison **comparison, gg_error *err)
+static gg_status restore(gg_stored_result *stored, gg_comparison **comparison, gg_error *err)
 {
-  gg_comparison *c = status == GG_OK ? gg_base_array_new(1, sizeof *c, err) : NULL;
-  if (status == GG_OK) status = c ? gg_files_comparison_restore(stored, c, err) : GG_FAILED;
-  gg_files_stored_result_clear(stored);
-  if (status == GG_OK)
-    *comparison = c;
-  else
-    gg_comparison_free(c);
-  return status;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  if (!c) return GG_FAILED;
+  GG_TRY(gg_files_comparison_restore(stored, c, err));
+  return GG_HAND_OVER(comparison, c), GG_OK;
 }
 
 gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(path, comparison);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_read(&stored, path, err), &stored, comparison, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_read(&stored, path, err));
+  return restore(&stored, comparison, err);
 }
 
 gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(bytes, comparison);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_from_bytes(&stored, bytes, size, err), &stored, comparison, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_from_bytes(&stored, bytes, size, err));
+  return restore(&stored, comparison, err);
 }

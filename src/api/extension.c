@@ -17,18 +17,17 @@ enum { MOST_LETTERS = 40, MOST_TEXT = 500 };
 /* `what` is "observable", "quantity", "theory" or "restitution law". */
 static gg_status check_name(const char *what, const char *name, gg_error *err)
 {
-  if (!name || !*name) return gg_base_fail(err, GG_BAD_INPUT, "%s: a name is missing", what);
+  if (!name || !*name) return GG_REFUSE(err, "%s: a name is missing", what);
   if (gg_base_text_is_name(name, MOST_LETTERS)) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "%s: '%.60s' is not a valid name: use a letter, then letters, digits and _, at most %d", what,
-                      name, MOST_LETTERS);
+  return GG_REFUSE(err, "%s: '%.60s' is not a valid name: use a letter, then letters, digits and _, at most %d", what,
+                   name, MOST_LETTERS);
 }
 
 /* Check an optional text for files, documents and tables: one short line of UTF-8. */
 static gg_status check_text(const char *name, const char *text, size_t most, gg_error *err)
 {
   if (!text || (strlen(text) <= most && gg_base_text_is_printable(text))) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "%s: a text must be one line of UTF-8 of at most %zu bytes", name, most);
+  return GG_REFUSE(err, "%s: a text must be one line of UTF-8 of at most %zu bytes", name, most);
 }
 
 static bool is_shared(const char *quantity)
@@ -55,31 +54,29 @@ static gg_status check_quantity(const gg_extension *x, const gg_observable_defin
   const gg_quantity_definition *q = &o->quantities[index];
   GG_TRY(check_name("quantity", q->name, err));
   if (is_error(q->name))
-    return gg_base_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is reserved: tables call errors ..._error",
-                        q->name);
+    return GG_REFUSE(err, "quantity: the name '%s' is reserved: tables call errors ..._error", q->name);
   GG_TRY(check_text(q->name, q->unit, MOST_LETTERS, err));
   GG_TRY(check_text(q->name, q->doc, MOST_TEXT, err));
   bool taken = is_shared(q->name) || is_user_defined(x, q->name);
   for (int k = 0; k < index; k++) taken |= strcmp(o->quantities[k].name, q->name) == 0;
-  return taken ? gg_base_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is taken", q->name) : GG_OK;
+  return taken ? GG_REFUSE(err, "quantity: the name '%s' is taken", q->name) : GG_OK;
 }
 
 static gg_status check_observable(const gg_extension *x, const gg_observable_definition *o, gg_error *err)
 {
-  if (!o) return gg_base_fail(err, GG_BAD_INPUT, "observable: the definition is missing");
+  if (!o) return GG_REFUSE(err, "observable: the definition is missing");
   GG_TRY(check_name("observable", o->name, err));
   GG_TRY(check_text(o->name, o->doc, MOST_TEXT, err));
   bool taken = gg_scene_field_find_word(&gg_scene_fields[gg_scene_field_find("measure")], o->name).name != NULL;
   for (int k = 0; k < gg_common_extension_observables(x); k++)
     taken |= strcmp(gg_common_extension_observable(x, k)->name, o->name) == 0;
-  if (taken) return gg_base_fail(err, GG_BAD_INPUT, "observable: the name '%s' is taken", o->name);
-  if (!o->sample) return gg_base_fail(err, GG_BAD_INPUT, "%s: the callback `sample` is missing", o->name);
+  if (taken) return GG_REFUSE(err, "observable: the name '%s' is taken", o->name);
+  if (!o->sample) return GG_REFUSE(err, "%s: the callback `sample` is missing", o->name);
   if (!o->quantities || o->n_quantities < 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: an observable needs at least one quantity", o->name);
+    return GG_REFUSE(err, "%s: an observable needs at least one quantity", o->name);
   if (o->n_quantities > GG_MOST_OWN_QUANTITIES - gg_common_extension_quantities(x))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene can have at most %d user-defined quantities", o->name,
-                        GG_MOST_OWN_QUANTITIES);
-  if (o->state_size > 1u << 24) return gg_base_fail(err, GG_BAD_INPUT, "%s: state_size is above 16 MiB", o->name);
+    return GG_REFUSE(err, "%s: a scene can have at most %d user-defined quantities", o->name, GG_MOST_OWN_QUANTITIES);
+  if (o->state_size > 1u << 24) return GG_REFUSE(err, "%s: state_size is above 16 MiB", o->name);
   for (int k = 0; k < o->n_quantities; k++) GG_TRY(check_quantity(x, o, k, err));
   return GG_OK;
 }
@@ -94,7 +91,7 @@ static gg_status replace(gg_scene *scene, gg_extension *x)
 
 gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definition *o, gg_error *err)
 {
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "observable: the scene is missing");
+  if (!scene) return GG_REFUSE(err, "observable: the scene is missing");
   GG_TRY(check_observable(scene->extension, o, err));
   return replace(scene, gg_common_extension_with_observable(scene->extension, o, err));
 }
@@ -111,40 +108,37 @@ static bool is_column(const char *name)
 
 static gg_status check_theory(const gg_extension *x, const gg_theory_definition *t, gg_error *err)
 {
-  if (!t) return gg_base_fail(err, GG_BAD_INPUT, "theory: the definition is missing");
+  if (!t) return GG_REFUSE(err, "theory: the definition is missing");
   GG_TRY(check_name("theory", t->name, err));
   const char *const texts[] = {t->title, t->citation, t->assumptions};
   for (int k = 0; k < 3; k++) GG_TRY(check_text(t->name, texts[k], MOST_TEXT, err));
   if (is_column(t->name))
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "theory: the name '%s' is reserved for columns of tables; not allowed: quantity, unit, md, dsmc, z, "
-        "correlation_time_unit, beyond_expected, md_..., dsmc_..., ..._error",
-        t->name);
+    return GG_REFUSE(err,
+                     "theory: the name '%s' is reserved for columns of tables; not allowed: quantity, unit, md, dsmc, "
+                     "z, correlation_time_unit, beyond_expected, md_..., dsmc_..., ..._error",
+                     t->name);
   bool taken = gg_theory_find(t->name) != NULL;
   for (int k = 0; k < gg_common_extension_theories(x); k++)
     taken |= strcmp(gg_common_extension_theory(x, k)->name, t->name) == 0;
-  if (taken) return gg_base_fail(err, GG_BAD_INPUT, "theory: the name '%s' is taken", t->name);
+  if (taken) return GG_REFUSE(err, "theory: the name '%s' is taken", t->name);
   if (gg_common_extension_theories(x) == GG_MOST_OWN_THEORIES)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene can have at most %d user-defined theories", t->name,
-                        GG_MOST_OWN_THEORIES);
-  if (!t->evaluate) return gg_base_fail(err, GG_BAD_INPUT, "%s: the callback `evaluate` is missing", t->name);
+    return GG_REFUSE(err, "%s: a scene can have at most %d user-defined theories", t->name, GG_MOST_OWN_THEORIES);
+  if (!t->evaluate) return GG_REFUSE(err, "%s: the callback `evaluate` is missing", t->name);
   if (!t->quantities || t->n_quantities < 1 || t->n_quantities > GG_MOST_QUANTITIES)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a theory needs at least one quantity", t->name);
+    return GG_REFUSE(err, "%s: a theory needs at least one quantity", t->name);
   for (int k = 0; k < t->n_quantities; k++) {
     const char *q = t->quantities[k];
     if (!q || !(is_shared(q) || is_user_defined(x, q)))
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no quantity called '%.60s'", t->name, q ? q : "");
+      return GG_REFUSE(err, "%s: there is no quantity called '%.60s'", t->name, q ? q : "");
     for (int j = 0; j < k; j++)
-      if (strcmp(t->quantities[j], q) == 0)
-        return gg_base_fail(err, GG_BAD_INPUT, "%s: the quantity '%s' is given twice", t->name, q);
+      if (strcmp(t->quantities[j], q) == 0) return GG_REFUSE(err, "%s: the quantity '%s' is given twice", t->name, q);
   }
   return GG_OK;
 }
 
 gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *t, gg_error *err)
 {
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "theory: the scene is missing");
+  if (!scene) return GG_REFUSE(err, "theory: the scene is missing");
   GG_TRY(check_theory(scene->extension, t, err));
   return gg_theory_user_theory_add(&scene->extension, t, err);
 }
@@ -152,7 +146,7 @@ gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *t, gg
 gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *e, void *context, gg_error *err)
 {
   const gg_restitution_law law = {.name = e ? name : "", .e = e, .context = context};
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: the scene is missing");
+  if (!scene) return GG_REFUSE(err, "restitution law: the scene is missing");
   if (e) {
     GG_TRY(check_name("restitution law", name, err));
     GG_TRY(gg_common_law_check(&law, scene->n_species, err));
@@ -163,19 +157,17 @@ gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitu
 gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,
                                          const double *e, gg_error *err)
 {
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: the scene is missing");
+  if (!scene) return GG_REFUSE(err, "restitution law: the scene is missing");
   GG_TRY(check_name("restitution law", name, err));
   if (n < 1 || n > 1u << 20 || !speed || !e)
-    return gg_base_fail(err, GG_BAD_INPUT, "restitution law '%s': a table has 1 to %u speeds, and as many e", name,
-                        1u << 20);
+    return GG_REFUSE(err, "restitution law '%s': a table has 1 to %u speeds, and as many e", name, 1u << 20);
   for (size_t k = 0; k < n; k++) {
     if (!(speed[k] >= 0 && isfinite(speed[k])) || (k && !(speed[k] > speed[k - 1])))
-      return gg_base_fail(err, GG_BAD_INPUT,
-                          "restitution law '%s': speed %zu of the table is %g; speeds must ascend from 0 on", name,
-                          k + 1, speed[k]);
+      return GG_REFUSE(err, "restitution law '%s': speed %zu of the table is %g; speeds must ascend from 0 on", name,
+                       k + 1, speed[k]);
     if (!(e[k] >= 0 && e[k] <= 1))
-      return gg_base_fail(err, GG_BAD_INPUT, "restitution law '%s': e %zu of the table is %g; it must be from 0 to 1",
-                          name, k + 1, e[k]);
+      return GG_REFUSE(err, "restitution law '%s': e %zu of the table is %g; it must be from 0 to 1", name, k + 1,
+                       e[k]);
   }
   const gg_restitution_law law = {.name = name};
   const gg_law_table table = {n, speed, e};

@@ -29,18 +29,16 @@ static gg_status check_pairs(const file *all, int n, gg_error *err)
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
       if (!may_be_same(&all[i], &all[j]) && gg_io_path_is_same_file(all[i].path, all[j].path))
-        return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and %s; choose another %s", all[i].path,
-                            all[i].role, all[j].role, all[i].option);
+        return GG_REFUSE(err, "%s: would be both %s and %s; choose another %s", all[i].path, all[i].role, all[j].role,
+                         all[i].option);
   return GG_OK;
 }
 
 static gg_status check_page(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper,
                             page_check *check, const void *context, gg_error *err)
 {
-  char *page = gg_plot_page_name(picture, engine, group, paper);
-  gg_status status = page ? check(page, picture, context, err) : gg_base_out_of_memory(err);
-  free(page);
-  return status;
+  GG_FREED char *page = gg_plot_page_name(picture, engine, group, paper);
+  return page ? check(page, picture, context, err) : gg_base_out_of_memory(err);
 }
 
 /* Check all pages that the run may draw. If an engine rejects an observable, its page is not drawn. */
@@ -67,8 +65,8 @@ static gg_status check_apart(const char *page, const char *picture, const void *
 {
   for (const file *f = context; f->role; f++)
     if (gg_io_path_is_same_file(page, f->path))
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and " GG_PAGE_BESIDE "; choose another picture",
-                          page, f->role, picture);
+      return GG_REFUSE(err, "%s: would be both %s and " GG_PAGE_BESIDE "; choose another picture", page, f->role,
+                       picture);
   return GG_OK;
 }
 
@@ -85,11 +83,10 @@ static gg_status check_ending(const char *output, gg_error *err)
   const char *ending = output ? strrchr(output, '.') : NULL;
   for (size_t i = 0; ending && i < sizeof pictures / sizeof *pictures; i++)
     if (strcasecmp(ending, pictures[i]) == 0)
-      return gg_base_fail(
-          err, GG_BAD_INPUT,
-          "%s: has the name of a picture, and results are HDF5: choose FILE.h5 for the output; pictures are "
-          "drawn by `compare --picture` and `graingas plot`",
-          output);
+      return GG_REFUSE(err,
+                       "%s: has the name of a picture, and results are HDF5: choose FILE.h5 for the output; pictures "
+                       "are drawn by `compare --picture` and `graingas plot`",
+                       output);
   return GG_OK;
 }
 
@@ -99,17 +96,12 @@ gg_status gg_api_picture_check(const gg_api_run_call *r, gg_error *err)
   gg_plot_paper paper;
   const gg_run_options *o = &r->options;
   if (!o->picture) return GG_OK;
-  gg_output_path place;
+  GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
   GG_TRY(gg_plot_paper_choose(&paper, o->picture, NULL, o->picture_width, err));
-  if (!o->output)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: set --output FILE.h5",
-                        o->picture);
+  if (!o->output) return GG_REFUSE(err, "%s: a picture is drawn from an output file: set --output FILE.h5", o->picture);
   GG_TRY(gg_io_output_path_find(&place, o->output, err));
-  bool stream = place.stream;
-  gg_io_output_path_clear(&place);
-  if (stream)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from the output file, and %s keeps none", o->picture,
-                        o->output);
+  if (place.stream)
+    return GG_REFUSE(err, "%s: a picture is drawn from the output file, and %s keeps none", o->picture, o->output);
   GG_TRY(gg_io_atomic_check_writable(o->picture, GG_PICTURES_ARE, err));
   return for_pages(r, check_page_writable, NULL, err);
 }
@@ -117,9 +109,9 @@ gg_status gg_api_picture_check(const gg_api_run_call *r, gg_error *err)
 gg_status gg_api_files_check(const gg_api_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
-  char *second = o->checkpoint ? gg_files_checkpoint_before(o->checkpoint) : NULL,
-       *third = o->resume ? gg_files_checkpoint_before(o->resume) : NULL;
-  char *frames = o->checkpoint ? gg_files_frame_log_path(o->checkpoint) : NULL;
+  GG_FREED char *second = o->checkpoint ? gg_files_checkpoint_before(o->checkpoint) : NULL;
+  GG_FREED char *third = o->resume ? gg_files_checkpoint_before(o->resume) : NULL;
+  GG_FREED char *frames = o->checkpoint ? gg_files_frame_log_path(o->checkpoint) : NULL;
   const file all[] = {{o->output, "the result", "output"},
                       {o->picture, "the picture", "picture"},
                       {o->checkpoint, "the checkpoint", "checkpoint"},
@@ -130,11 +122,7 @@ gg_status gg_api_files_check(const gg_api_run_call *r, gg_error *err)
                       {r->samples.path, "the log", "output.log"},
                       {o->input, "the scene", NULL},
                       {NULL, NULL, NULL}};
-  gg_status status = check_pairs(all, sizeof all / sizeof *all - 1, err);
-  if (status == GG_OK) status = for_pages(r, check_apart, all, err);
-  if (status == GG_OK) status = check_ending(o->output, err);
-  free(second);
-  free(third);
-  free(frames);
-  return status;
+  GG_TRY(check_pairs(all, sizeof all / sizeof *all - 1, err));
+  GG_TRY(for_pages(r, check_apart, all, err));
+  return check_ending(o->output, err);
 }

@@ -48,10 +48,9 @@ static gg_status find_page(char page[PATH_MAX + 16], gg_error *err)
                         "(./check --page installs that); or name a page: graingas page --page FILE",
                         page);
   if (!*folder || (is_safe(folder) && is_safe(page))) return GG_OK;
-  return gg_base_fail(err, GG_BAD_FILE,
-                      "%s: others can write there, and could put another page in its place; "
-                      "chmod go-w its folder and the file",
-                      page);
+  return gg_base_fail(
+      err, GG_BAD_FILE,
+      "%s: others can write there, and could put another page in its place; chmod go-w its folder and the file", page);
 }
 
 static gg_status read_all(FILE *in, const char *path, char **text, gg_error *err)
@@ -74,26 +73,21 @@ static gg_status read_page(const char *given, char **text, gg_error *err)
   char found[PATH_MAX + 16];
   if (!given) GG_TRY(find_page(found, err));
   const char *path = given ? given : found;
-  FILE *in = fopen(path, "rb");
-  if (!in) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  gg_status status = read_all(in, path, text, err);
-  fclose(in);
-  return status;
+  GG_CLOSED FILE *in = fopen(path, "rb");
+  return in ? read_all(in, path, text, err)
+            : gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
 }
 
 /* The scene as a JSON string inside a script element: '<' is escaped, so that no text can end the element. */
 static gg_status scene_literal(const gg_scene *scene, char **literal, gg_error *err)
 {
-  char *yaml = NULL;
+  GG_FREED char *yaml = NULL;
   GG_TRY(gg_scene_to_yaml(scene, &yaml, err));
-  json_t *string = json_string(yaml);
-  char *plain = string ? json_dumps(string, JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
+  json_auto_t *string = json_string(yaml);
+  GG_FREED char *plain = string ? json_dumps(string, JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
   *literal = plain ? gg_base_array_new(6 * strlen(plain) + 1, 1, err) : NULL;
   char *to = *literal;
   for (const char *at = plain; to && *at; at++) to += sprintf(to, *at == '<' ? "\\u003c" : "%c", *at);
-  json_decref(string);
-  free(plain);
-  free(yaml);
   return *literal ? GG_OK : gg_base_out_of_memory(err);
 }
 
@@ -111,13 +105,10 @@ static gg_status write_parts(const char *path, const char *page, const char *sce
 
 gg_status gg_page_write(const char *page, const gg_scene *scene, const char *path, gg_error *err)
 {
-  char *text = NULL, *literal = NULL;
+  GG_FREED char *text = NULL, *literal = NULL;
   GG_NEED(path);
   if (scene) GG_TRY(gg_scene_check(scene, err));
   GG_TRY(read_page(page, &text, err));
-  gg_status status = scene ? scene_literal(scene, &literal, err) : GG_OK;
-  if (status == GG_OK) status = write_parts(path, text, scene ? literal : "null", err);
-  free(literal);
-  free(text);
-  return status;
+  if (scene) GG_TRY(scene_literal(scene, &literal, err));
+  return write_parts(path, text, scene ? literal : "null", err);
 }

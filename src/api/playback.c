@@ -22,12 +22,9 @@ struct gg_trajectory {
 
 static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
 {
-  gg_stored_result stored;
-  gg_status status = gg_files_stored_result_read(&stored, path, err);
-  if (status == GG_OK)
-    status = gg_files_stored_scene(&stored, gg_files_stored_first(&stored), &t->scene, &t->model, err);
-  gg_files_stored_result_clear(&stored);
-  return status;
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_read(&stored, path, err));
+  return gg_files_stored_scene(&stored, gg_files_stored_first(&stored), &t->scene, &t->model, err);
 }
 
 static void destroy(void *trajectory)
@@ -93,8 +90,7 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
   gg_frame f;
   double edges[9] = {0};
   if (k >= t->stored.n_frames)
-    return gg_base_fail(err, GG_BAD_INPUT, "there is no frame %zu: this trajectory has %zu, counted from 0", k,
-                        t->stored.n_frames);
+    return GG_REFUSE(err, "there is no frame %zu: this trajectory has %zu, counted from 0", k, t->stored.n_frames);
   GG_TRY(gg_files_stored_trajectory_frame(&t->stored, k, &f, edges, err));
   if (t->model.n_species > 1) f.species = t->stored.species;
   gg_status status = gg_run_frame_check(&f, &t->model, err);
@@ -114,6 +110,6 @@ gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species
 {
   GG_NEED(trajectory, state);
   GG_USE_READING(trajectory);
-  if (!trajectory->last.model) return gg_base_fail(err, GG_BAD_INPUT, "read a frame of the trajectory first");
+  if (!trajectory->last.model) return GG_REFUSE(err, "read a frame of the trajectory first");
   return gg_api_moments_species(&trajectory->last, species, 1, state, err);
 }

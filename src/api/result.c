@@ -46,7 +46,7 @@ gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found,
 {
   GG_NEED(result, found);
   const gg_quantity_rows *rows = &result->rows;
-  if (i >= (size_t)rows->n) return gg_base_fail(err, GG_BAD_INPUT, "gg_result_at: there are %d quantities", rows->n);
+  if (i >= (size_t)rows->n) return GG_REFUSE(err, "gg_result_at: there are %d quantities", rows->n);
   *found = measurement(result, &rows->row[i]);
   return GG_OK;
 }
@@ -56,7 +56,7 @@ gg_status gg_result_get(const gg_result *result, const char *quantity, double *m
   gg_measurement m;
   GG_NEED(result, quantity);
   GG_TRY(gg_result_find(result, quantity, &m, err));
-  if (isnan(m.mean)) return gg_base_fail(err, GG_BAD_INPUT, "'%s' cannot be had here: %s", quantity, m.reason);
+  if (isnan(m.mean)) return GG_REFUSE(err, "'%s' cannot be had here: %s", quantity, m.reason);
   if (mean) *mean = m.mean;
   if (error) *error = m.error;
   return GG_OK;
@@ -74,8 +74,7 @@ gg_status gg_result_covariance(const gg_result *result, const char *quantity, co
   GG_TRY(find(result, other, &second, err));
   *covariance = gg_run_result_covariance(result, one->quantity, second->quantity, &why);
   if (!why) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "the covariance of '%s' and '%s' cannot be had here: %s", quantity, other,
-                      why);
+  return GG_REFUSE(err, "the covariance of '%s' and '%s' cannot be had here: %s", quantity, other, why);
 }
 
 const char *gg_result_unit(const gg_result *result, const char *quantity)
@@ -142,14 +141,14 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
     if (result->history.value[k])
       gg_base_text_append(followed, sizeof followed, "%s%s", *followed ? ", " : "",
                           gg_common_quantity_name(gg_common_quantity_of_history(k)));
-  return gg_base_fail(err, GG_BAD_INPUT, "'%s' is not followed in time; allowed: %s", quantity, followed);
+  return GG_REFUSE(err, "'%s' is not followed in time; allowed: %s", quantity, followed);
 }
 
 /* The i-th curve; NULL, with the message, after the last. */
 static const gg_curve *curve_at(const gg_result *r, size_t i, gg_error *err)
 {
   if (i < (size_t)r->curves.n) return &r->curves.curve[i];
-  gg_base_fail(err, GG_BAD_INPUT, "this result has %d curves", r->curves.n);
+  GG_REFUSE(err, "this result has %d curves", r->curves.n);
   return NULL;
 }
 
@@ -178,15 +177,13 @@ gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curv
 {
   GG_NEED(result, curve);
   const gg_curve *c = curve_at(result, i, err);
-  if (!c) return GG_BAD_INPUT;
-  *curve = gg_api_curve_view(c);
-  return GG_OK;
+  return c ? *curve = gg_api_curve_view(c), GG_OK : GG_BAD_INPUT;
 }
 
 gg_status gg_api_curve_number(const gg_curve *c, size_t k, const char *unit, gg_measurement *number, gg_error *err)
 {
   if (k >= (size_t)c->n_numbers)
-    return gg_base_fail(err, GG_BAD_INPUT, "%d numbers were derived from the curve %s", c->n_numbers, c->name);
+    return GG_REFUSE(err, "%d numbers were derived from the curve %s", c->n_numbers, c->name);
   const gg_curve_number *p = &c->number[k];
   *number = (gg_measurement){.name = p->name,
                              .mean = p->value,
@@ -210,9 +207,9 @@ gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_er
 {
   GG_NEED(result, into);
   const gg_frame *f = &result->final;
-  if (!f->velocity) return gg_base_fail(err, GG_BAD_INPUT, "this result holds no grains");
+  if (!f->velocity) return GG_REFUSE(err, "this result holds no grains");
   if (into->position && !f->position)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions", result->engine);
+    return GG_REFUSE(err, "%s is spatially homogeneous: it has no positions", result->engine);
   gg_measure_frame_copy(f, into->position, into->velocity, into->spin, into->species);
   return GG_OK;
 }
@@ -267,29 +264,26 @@ gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size
   return gg_api_file_to_bytes(result, NULL, __func__, bytes, size, err);
 }
 
-/* The result of a stored one that was read with this status; clears the stored one. */
-static gg_status restore(gg_status status, gg_stored_result *stored, const char *path, gg_result **result,
-                         gg_error *err)
+static gg_status restore(gg_stored_result *stored, const char *path, gg_result **result, gg_error *err)
 {
-  if (status == GG_OK && stored->comparison)
-    status = gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
-  if (status == GG_OK) status = gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
-  gg_files_stored_result_clear(stored);
-  return status;
+  if (stored->comparison) return GG_REFUSE(err, "%s: holds a comparison: read it with gg_comparison_read", path);
+  return gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
 }
 
 gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
 {
   GG_NEED(path, result);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_read(&stored, path, err), &stored, path, result, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_read(&stored, path, err));
+  return restore(&stored, path, result, err);
 }
 
 gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **result, gg_error *err)
 {
   GG_NEED(bytes, result);
-  gg_stored_result stored;
-  return restore(gg_files_stored_result_from_bytes(&stored, bytes, size, err), &stored, "the bytes", result, err);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
+  GG_TRY(gg_files_stored_result_from_bytes(&stored, bytes, size, err));
+  return restore(&stored, "the bytes", result, err);
 }
 
 gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
@@ -298,10 +292,9 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
 {
   GG_NEED(result_file, picture);
   if (gg_io_path_is_same_file(result_file, picture))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture",
-                        picture);
+    return GG_REFUSE(err, "%s: would be both the result and its picture; choose another picture", picture);
   gg_plot_paper paper;
-  gg_stored_result stored;
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
   gg_api_request request = {stop, context, false};
   GG_TRY(gg_plot_paper_choose(&paper, picture, format, width, err));
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
@@ -312,7 +305,6 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   if (status == GG_OK)
     status =
         gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &(gg_stop){gg_api_is_requested, &request}, err);
-  gg_files_stored_result_clear(&stored);
   status = gg_base_callback_settle(status, err);
   return gg_base_memory_check(before, status, err); /* otherwise a picture could lack its title */
 }
@@ -320,7 +312,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
 gg_status gg_result_file_notice(const char *result_file, char *text, size_t size, gg_error *err)
 {
   GG_NEED(result_file, text);
-  if (!size) return gg_base_fail(err, GG_BAD_INPUT, "gg_result_file_notice: there is no room for a text");
+  if (!size) return GG_REFUSE(err, "gg_result_file_notice: there is no room for a text");
   return gg_files_stored_result_notice(result_file, text, size, err);
 }
 
@@ -331,14 +323,12 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
   GG_NEED(result_file, prefix);
   gg_api_request request = {stop, context, false};
   const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
-  if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': the files need a prefix to their names", prefix);
+  if (!*name) return GG_REFUSE(err, "'%s': the files need a prefix to their names", prefix);
   if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: %u is not a set of parts to export; allowed: sums of GG_EXPORT_...",
-                        result_file, parts);
-  gg_stored_result stored;
+    return GG_REFUSE(err, "%s: %u is not a set of parts to export; allowed: sums of GG_EXPORT_...", result_file, parts);
+  GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context,
                                             &(gg_stop){gg_api_is_requested, &request}, err);
-  gg_files_stored_result_clear(&stored);
   return gg_base_callback_settle(status, err);
 }

@@ -75,32 +75,26 @@ static gg_status read_resume(gg_api_run_call *r, gg_error *err)
 static gg_status lock_checkpoint(gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
-  gg_output_path place;
+  GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
   GG_TRY(gg_io_output_path_find(&place, path, err));
-  gg_status status = place.stream
-                         ? gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path)
-                         : gg_io_file_lock_take(&r->lock, place.target, path, err);
-  gg_io_output_path_clear(&place);
-  return status;
+  return place.stream ? gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path)
+                      : gg_io_file_lock_take(&r->lock, place.target, path, err);
 }
 
 /* Reject links: checkpoints and frames are renamed and removed, and the target of a link may be another file. */
 static gg_status check_links(const gg_api_run_call *r, gg_error *err)
 {
   struct stat about;
-  char *frames = gg_files_frame_log_path(r->options.checkpoint), *before = NULL, *fresh = NULL;
-  if (!frames || asprintf(&before, "%s.1", r->options.checkpoint) < 0) before = NULL;
-  if (frames) fresh = gg_files_frame_log_new_path(frames);
+  GG_FREED char *frames = gg_files_frame_log_path(r->options.checkpoint);
+  GG_FREED char *before = gg_files_checkpoint_before(r->options.checkpoint);
+  GG_FREED char *fresh = frames ? gg_files_frame_log_new_path(frames) : NULL;
   const char *all[] = {r->options.checkpoint, before, frames, fresh};
-  gg_status status = before && fresh ? GG_OK : gg_base_out_of_memory(err);
-  for (size_t i = 0; i < sizeof all / sizeof *all && status == GG_OK; i++)
+  if (!before || !fresh) return gg_base_out_of_memory(err);
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
     if (lstat(all[i], &about) == 0 && S_ISLNK(about.st_mode))
-      status = gg_io_path_write_error(
+      return gg_io_path_write_error(
           all[i], "it is a link, and checkpoints are removed at the end: remove it, or choose another output", err);
-  free(frames);
-  free(before);
-  free(fresh);
-  return status;
+  return GG_OK;
 }
 
 /* Protect the checkpoint of an interrupted run, which may hold hours of work. Only a run that resumes it replaces it.
@@ -108,10 +102,9 @@ static gg_status check_links(const gg_api_run_call *r, gg_error *err)
 static gg_status check_earlier(const gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
-  char *before = gg_files_checkpoint_before(path);
+  GG_FREED char *before = gg_files_checkpoint_before(path);
   if (!before) return gg_base_out_of_memory(err);
   const bool there = access(path, F_OK) == 0 || access(before, F_OK) == 0;
-  free(before);
   if (!there || r->resumes_in_place || r->replaces) return GG_OK;
   return gg_base_fail(err, GG_BAD_FILE,
                       "%s: holds the state of a run: resume it (--resume %s), remove it, or choose another output",
@@ -122,11 +115,10 @@ static gg_status check_earlier(const gg_api_run_call *r, gg_error *err)
 static gg_status name_temporaries(gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
-  char *frames = gg_files_frame_log_path(path);
+  GG_FREED char *frames = gg_files_frame_log_path(path);
   r->temporary[GG_TEMPORARY_CHECKPOINT] = gg_io_path_follow_links(path);
   r->temporary[GG_TEMPORARY_BEFORE] = gg_files_checkpoint_before(path);
   r->temporary[GG_TEMPORARY_FRAMES] = frames ? gg_io_path_follow_links(frames) : NULL;
-  free(frames);
   for (int i = 0; i < GG_TEMPORARIES; i++)
     if (!r->temporary[i]) return gg_base_out_of_memory(err);
   return GG_OK;
@@ -136,7 +128,7 @@ static gg_status begin_checkpoints(gg_api_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
   if (!o->checkpoint && r->scene.output.state == GG_STATE_KEPT)
-    return gg_base_fail(err, GG_BAD_INPUT, "output.state: kept needs a file for checkpoints");
+    return GG_REFUSE(err, "output.state: kept needs a file for checkpoints");
   if (o->checkpoint) GG_TRY(check_links(r, err));
   if (o->checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (o->resume) GG_TRY(read_resume(r, err));
@@ -150,13 +142,12 @@ static gg_status read_start(gg_api_run_call *r, gg_error *err)
 {
   if (!gg_files_positions_are_read(&r->scene) || r->options.resume) return GG_OK;
   if (!r->comparison && r->scene.engine != GG_MD) return GG_OK;
-  if (r->options.workers) return gg_base_fail(err, GG_BAD_INPUT, "start.positions: a file needs a run in one process");
-  gg_model *md = gg_base_array_new(1, sizeof *md, err);
-  gg_status status = md ? gg_scene_model_make(&r->scene, GG_MD, md, err) : GG_FAILED;
-  if (status == GG_OK) status = gg_files_positions_read(&r->scene, md, &r->start, err);
+  if (r->options.workers) return GG_REFUSE(err, "start.positions: a file needs a run in one process");
+  GG_FREED gg_model *md = gg_base_array_new(1, sizeof *md, err);
+  if (!md) return GG_FAILED;
+  GG_TRY(gg_scene_model_make(&r->scene, GG_MD, md, err));
   r->model.start = &r->start.grains;
-  free(md);
-  return status;
+  return gg_files_positions_read(&r->scene, md, &r->start, err);
 }
 
 static gg_status begin(gg_api_run_call *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
@@ -294,7 +285,7 @@ static gg_status simulate(gg_api_run_call *r, gg_point_call *point, const gg_sce
                           const gg_run_options *options, bool comparison, gg_comparison **made, gg_error *err)
 {
   gg_error why = {0};
-  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   const unsigned before = gg_base_memory_failures();
   gg_status status = begin(r, scene, options, comparison, point != NULL, err);
@@ -312,22 +303,18 @@ static gg_status simulate(gg_api_run_call *r, gg_point_call *point, const gg_sce
   end(r);
   note_failure(r);
   if (atomic_load(&r->callback_failed)) status = gg_base_fail(err, GG_FAILED, "%s", r->callback_reason.message);
-  if (has_results)
-    *made = c;
-  else
-    gg_comparison_free(c);
+  if (has_results) GG_HAND_OVER(made, c);
   return status_of(status, written, &why, err);
 }
 
 gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
                               bool comparison, gg_comparison **made, gg_error *err)
 {
-  gg_api_run_call *r = gg_base_array_new(1, sizeof *r, err); /* too large for small stacks */
+  GG_FREED gg_api_run_call *r = gg_base_array_new(1, sizeof *r, err); /* too large for small stacks */
   if (!r) return GG_FAILED;
   gg_extension *held = gg_common_extension_hold(scene->extension); /* the scene may be freed during the run */
   gg_status status = simulate(r, point, scene, options, comparison, made, err);
   gg_common_extension_release(held);
-  free(r);
   return status;
 }
 
@@ -336,13 +323,10 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   GG_NEED(scene, result);
   gg_run_options own;
   GG_COPY_OPTIONS(own, options);
-  gg_comparison *made = NULL;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *made = NULL;
   gg_status status = gg_api_run_simulate(NULL, scene, &own, false, &made, err);
-  for (int k = 0; made && k < GG_N_ENGINES; k++) {
-    if (made->by_engine[k]) *result = made->by_engine[k];
-    made->by_engine[k] = NULL;
-  }
-  gg_comparison_free(made);
+  for (int k = 0; made && k < GG_N_ENGINES; k++)
+    if (made->by_engine[k]) GG_HAND_OVER(result, made->by_engine[k]);
   return status;
 }
 

@@ -7,20 +7,18 @@
 #include "api/simulation.h"
 #include "base/memory.h"
 #include "files/h5/checkpoint_file.h"
+#include "scene/fields.h"
 
 static gg_status describe_comparison(const gg_archive *a, gg_checkpoint_info *info, gg_error *err)
 {
   info->kind = "comparison";
   for (int k = 0; k < GG_N_ENGINES; k++) {
-    gg_archive one = {0};
+    GG_CLEARED(gg_base_archive_clear) gg_archive one = {0};
     const char *name = gg_common_engine_of(k)->name;
-    gg_status status = gg_base_archive_unnest(&one, name, a, err);
-    if (status == GG_OK && one.n_items) {
-      info->part[k].engine = name;
-      status = gg_run_how_far(&one, &info->part[k], err);
-    }
-    gg_base_archive_clear(&one);
-    if (status != GG_OK) return status;
+    GG_TRY(gg_base_archive_unnest(&one, name, a, err));
+    if (!one.n_items) continue;
+    info->part[k].engine = name;
+    GG_TRY(gg_run_how_far(&one, &info->part[k], err));
   }
   return GG_OK;
 }
@@ -50,12 +48,11 @@ static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info
 {
   gg_scene *stored = NULL;
   const unsigned before = gg_base_memory_failures();
-  char *yaml = gg_files_checkpoint_scene(path, info->older);
+  GG_FREED char *yaml = gg_files_checkpoint_scene(path, info->older);
   bool out_of_memory = gg_base_memory_failures() != before;
   gg_status status = yaml            ? gg_scene_parse(yaml, path, &stored, err)
                      : out_of_memory ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", path)
                                      : gg_base_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
-  free(yaml);
   info->frames = gg_api_trajectory_frames(a);
   if (status == GG_OK) status = describe(a, path, stored, info, err);
   if (status == GG_OK && scene)
@@ -65,16 +62,29 @@ static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info
   return status;
 }
 
+gg_status gg_checkpoint_check_result(const char *path, const char *result_file, gg_error *err)
+{
+  GG_NEED(path, result_file);
+  gg_error why;
+  gg_scene *scene = NULL;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = NULL;
+  GG_CLEARED(gg_base_archive_clear) gg_archive keys = {0};
+  GG_TRY(gg_comparison_read(result_file, &c, err));
+  GG_TRY(gg_checkpoint_about(path, &(gg_checkpoint_info){0}, &scene, err));
+  gg_status status = gg_scene_resumption_put(scene, &keys, err);
+  gg_scene_free(scene);
+  if (status != GG_OK || gg_scene_resumption_check(c->scene, &keys, &why) == GG_OK) return status;
+  return GG_REFUSE(err, "%s: is not the result of the run in %s: %.600s", result_file, path, why.message);
+}
+
 gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err)
 {
   GG_NEED(path, info);
   bool older = false;
-  gg_archive archive = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   gg_checkpoint_info found = {0};
-  gg_status status = gg_files_checkpoint_read(path, true, &archive, &older, err);
+  GG_TRY(gg_files_checkpoint_read(path, true, &archive, &older, err));
   found.older = older;
-  if (status == GG_OK) status = about(&archive, path, &found, scene, err);
-  if (status == GG_OK) *info = found;
-  gg_base_archive_clear(&archive);
-  return status;
+  GG_TRY(about(&archive, path, &found, scene, err));
+  return *info = found, GG_OK;
 }

@@ -45,19 +45,17 @@ static gg_status check_is_log(const gg_sample_log *log, gg_error *err)
 /* Bytes of the complete rows up to this sample, and the number of rows of samples among them. */
 static off_t bytes_up_to(const gg_sample_log *log, uint64_t sample, uint64_t *rows)
 {
-  char *line = NULL;
+  GG_FREED char *line = NULL;
   size_t size = 0;
   off_t end = 0;
   const int fd = sample ? dup(log->fd) : -1;
-  FILE *in = fd >= 0 ? fdopen(fd, "r") : NULL;
+  GG_CLOSED FILE *in = fd >= 0 ? fdopen(fd, "r") : NULL;
   if (in) rewind(in);
   for (ssize_t n; in && (n = getline(&line, &size, in)) > 0 && line[n - 1] == '\n'; end += n) {
     const uint64_t at = sample_of(line, log->json);
     if (at > sample) break;
     *rows += at > 0;
   }
-  free(line);
-  if (in) fclose(in);
   return end;
 }
 
@@ -145,7 +143,7 @@ static gg_status add_to_sums(gg_sample_log *log, const gg_replica *r, gg_error *
 static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
 {
   gg_sample_log *log = &((gg_api_run_call *)context)->samples;
-  char *text = NULL;
+  GG_FREED char *text = NULL;
   size_t size = 0;
   GG_TRY(add_to_sums(log, r, err));
   if (r->clock.samples <= log->state.sample)
@@ -153,10 +151,8 @@ static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
   FILE *out = open_memstream(&text, &size);
   if (!out) return gg_base_out_of_memory(err);
   put_row(out, log, &((const gg_api_run_call *)context)->model, r);
-  gg_status status = fclose(out) == 0 ? append(log, text, size, err) : gg_base_out_of_memory(err);
-  free(text);
   log->state.sample = r->clock.samples;
-  return status;
+  return fclose(out) == 0 ? append(log, text, size, err) : gg_base_out_of_memory(err);
 }
 
 /* Restore the sums. A run that kept no log stored none; its means begin at the resumption. */
@@ -172,26 +168,21 @@ static gg_status restore(gg_sample_log *log, const gg_archive *a, gg_error *err)
 
 static gg_status open_file(gg_sample_log *log, const char *path, gg_error *err)
 {
-  gg_output_path place;
+  GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
   GG_TRY(gg_io_output_path_find(&place, path, err));
-  gg_status status = place.stream ? gg_io_path_write_error(path, "it is a device or a pipe; logs are files", err)
-                                  : gg_io_file_lock_take(&log->lock, place.target, path, err);
-  if (status == GG_OK) {
-    log->fd = open(place.target, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (log->fd < 0) status = write_error(log, err);
-  }
-  gg_io_output_path_clear(&place);
-  return status;
+  if (place.stream) return gg_io_path_write_error(path, "it is a device or a pipe; logs are files", err);
+  GG_TRY(gg_io_file_lock_take(&log->lock, place.target, path, err));
+  log->fd = open(place.target, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
+  return log->fd < 0 ? write_error(log, err) : GG_OK;
 }
 
 gg_status gg_api_log_name(gg_api_run_call *r, gg_error *err)
 {
   const char *name = r->scene.output.log, *output = r->options.output;
-  gg_output_path place = {0};
+  GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
   if (!*name) return GG_OK;
   if (output) GG_TRY(gg_io_output_path_find(&place, output, err));
   const char *slash = output && *name != '/' && !place.stream ? strrchr(output, '/') : NULL;
-  gg_io_output_path_clear(&place);
   if (asprintf(&r->samples.path, "%.*s%s", slash ? (int)(slash - output) + 1 : 0, output ? output : "", name) < 0)
     r->samples.path = NULL;
   return r->samples.path ? GG_OK : gg_base_out_of_memory(err);
@@ -202,13 +193,12 @@ static void warn_of_replacing(const gg_api_run_call *r)
 {
   const gg_sample_log *log = &r->samples;
   uint64_t n = 0;
-  char *text = NULL;
+  GG_FREED char *text = NULL;
   if (r->options.warn && log->state.sample == 0) bytes_up_to(log, UINT64_MAX, &n);
   if (n == 0) return;
   if (asprintf(&text, "%s holds %" PRIu64 " rows of an earlier run, and is replaced", log->path, n) < 0) return;
   gg_base_text_make_printable(text);
   r->options.warn(r->options.context, text);
-  free(text);
 }
 
 gg_status gg_api_log_begin(gg_api_run_call *r, gg_error *err)

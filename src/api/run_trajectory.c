@@ -65,13 +65,12 @@ static gg_status open_one_of_two(gg_api_run_call *r, gg_frame_log *log, const ch
                                  gg_error *err)
 {
   gg_status status = gg_files_frame_log_open_at(log, path, mark, &r->file.file.stop, err);
-  char *fresh = status == GG_BAD_FILE ? gg_files_frame_log_new_path(path) : NULL;
+  GG_FREED char *fresh = status == GG_BAD_FILE ? gg_files_frame_log_new_path(path) : NULL;
   if (fresh) {
     gg_status other = gg_files_frame_log_open_at(log, fresh, mark, &r->file.file.stop, NULL);
     if (other == GG_INTERRUPTED) gg_base_fail(err, other, "interrupted");
     if (other != GG_BAD_FILE) status = other;
   }
-  free(fresh);
   return status;
 }
 
@@ -82,17 +81,15 @@ static gg_status open_earlier(gg_api_run_call *r, gg_frame_log *earlier, gg_erro
   gg_error why;
   GG_TRY(gg_base_archive_get(&r->resume, mark_item, GG_ITEM_U8, &mark, sizeof mark, err));
   if (!mark.frames) return GG_OK;
-  char *path = log_of_resume(r);
+  GG_FREED char *path = log_of_resume(r);
   if (!path) return gg_base_out_of_memory(err);
   gg_status status = open_one_of_two(r, earlier, path, &mark, &why);
-  free(path);
   if (status != GG_BAD_FILE) return status == GG_OK ? GG_OK : gg_base_fail(err, status, "%s", why.message);
   r->resume_lost = true;
-  return gg_base_fail(
-      err, status,
-      "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it the "
-      "run can be resumed with output.trajectory_every: 0",
-      why.message, (unsigned long long)mark.frames);
+  return gg_base_fail(err, status,
+                      "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it "
+                      "the run can be resumed with output.trajectory_every: 0",
+                      why.message, (unsigned long long)mark.frames);
 }
 
 /* File name of a path, without folders. */
@@ -102,39 +99,27 @@ static const char *base_of(const char *path)
   return slash ? slash + 1 : path;
 }
 
-/* Check that the log can be written at this path: no device, folder or write-protected file. */
-static gg_status check_place(const char *path, gg_error *err)
-{
-  gg_output_path place;
-  GG_TRY(gg_io_output_path_find(&place, path, err));
-  bool stream = place.stream;
-  gg_io_output_path_clear(&place);
-  return stream ? gg_io_path_write_error(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
-}
-
 static gg_status open_log(gg_api_run_call *r, const gg_frame_log *earlier, gg_error *err)
 {
   const char *target = r->temporary[GG_TEMPORARY_FRAMES];
-  char *path = gg_files_frame_log_path(r->options.checkpoint);
-  gg_status status = path ? check_place(path, err) : gg_base_out_of_memory(err);
-  if (status == GG_OK) {
-    bool there = earlier->fd >= 0 ? gg_files_frame_log_is_at(earlier, target) : r->resumes_in_place;
-    status = there ? gg_files_frame_log_open(&r->log, target, err) : gg_files_frame_log_open_new(&r->log, target, err);
-  }
-  free(path);
-  return status;
+  GG_FREED char *path = gg_files_frame_log_path(r->options.checkpoint);
+  GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
+  if (!path) return gg_base_out_of_memory(err);
+  GG_TRY(gg_io_output_path_find(&place, path, err));
+  if (place.stream) return gg_io_path_write_error(path, "it is a device or a pipe; frames are kept in files", err);
+  bool there = earlier->fd >= 0 ? gg_files_frame_log_is_at(earlier, target) : r->resumes_in_place;
+  return there ? gg_files_frame_log_open(&r->log, target, err) : gg_files_frame_log_open_new(&r->log, target, err);
 }
 
 /* Mark of the checkpoint at options.checkpoint; no frames without such a checkpoint. */
 static gg_frame_mark mark_there(const gg_api_run_call *r)
 {
   gg_frame_mark mark = {0};
-  gg_archive there = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive there = {0};
   bool older, on = r->resumes_in_place;
   if (!on && gg_files_checkpoint_read(r->options.checkpoint, true, &there, &older, NULL) != GG_OK) return mark;
   if (gg_base_archive_get(on ? &r->resume : &there, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) != GG_OK)
     mark = (gg_frame_mark){0};
-  gg_base_archive_clear(&there);
   return mark;
 }
 
@@ -155,27 +140,23 @@ static gg_status commit_or_remove(gg_api_run_call *r, const char *path, const ch
 static gg_status resolve_new(gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->temporary[GG_TEMPORARY_FRAMES];
-  char *fresh = gg_files_frame_log_new_path(path);
-  gg_status status = fresh ? GG_OK : gg_base_out_of_memory(err);
-  if (fresh && access(fresh, F_OK) == 0) status = commit_or_remove(r, path, fresh, err);
-  free(fresh);
-  return status;
+  GG_FREED char *fresh = gg_files_frame_log_new_path(path);
+  if (!fresh) return gg_base_out_of_memory(err);
+  return access(fresh, F_OK) == 0 ? commit_or_remove(r, path, fresh, err) : GG_OK;
 }
 
 gg_status gg_api_trajectory_begin(gg_api_run_call *r, gg_error *err)
 {
   if (r->options.checkpoint) GG_TRY(resolve_new(r, err));
   if (!r->options.output || !(r->scene.output.trajectory_every > 0)) return GG_OK;
-  gg_frame_log earlier = {.fd = -1};
+  GG_CLEARED(gg_files_frame_log_close) gg_frame_log earlier = {.fd = -1};
   r->frames_missing = r->resume.n_items > 0 && !gg_base_archive_find(&r->resume, mark_item);
   r->callbacks.frame = r->options.checkpoint ? store_in_log : store_in_result;
-  gg_status status = r->resume.n_items > 0 && !r->frames_missing ? open_earlier(r, &earlier, err) : GG_OK;
-  if (status == GG_OK && r->options.checkpoint) status = open_log(r, &earlier, err);
-  if (status == GG_OK && earlier.fd >= 0)
-    status = r->log.fd >= 0 ? gg_files_frame_log_take_over(&r->log, &earlier, err)
-                            : gg_files_frame_log_replay(&earlier, store_from_log, r, err);
-  gg_files_frame_log_close(&earlier);
-  return status;
+  if (r->resume.n_items > 0 && !r->frames_missing) GG_TRY(open_earlier(r, &earlier, err));
+  if (r->options.checkpoint) GG_TRY(open_log(r, &earlier, err));
+  if (earlier.fd < 0) return GG_OK;
+  return r->log.fd >= 0 ? gg_files_frame_log_take_over(&r->log, &earlier, err)
+                        : gg_files_frame_log_replay(&earlier, store_from_log, r, err);
 }
 
 uint64_t gg_api_trajectory_frames(const gg_archive *a)
@@ -189,10 +170,9 @@ gg_status gg_api_trajectory_mark(const gg_api_run_call *r, gg_archive *archive, 
   char name[NAME] = "";
   if (r->log.fd < 0) return GG_OK;
   GG_TRY(gg_files_frame_log_sync(&r->log, err));
-  char *path = gg_files_frame_log_path(r->options.checkpoint);
+  GG_FREED char *path = gg_files_frame_log_path(r->options.checkpoint);
   if (!path) return gg_base_out_of_memory(err);
   snprintf(name, sizeof name, "%s", base_of(path));
-  free(path);
   GG_TRY(gg_base_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));
   return gg_base_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }

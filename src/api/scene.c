@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes: read, changed, queried and written back. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "api/api.h"
 #include "api/scene_theories.h"
@@ -11,6 +13,7 @@
 #include "common/engine.h"
 #include "common/extension.h"
 #include "common/laws/coefficient_tables.h"
+#include "files/positions.h"
 #include "files/text_format.h"
 #include "io/checked_json.h"
 #include "run/cost_estimate.h"
@@ -35,14 +38,6 @@ static gg_scene filled_in(const gg_scene *scene)
   return filled;
 }
 
-static gg_status copy_to_heap(const gg_scene *made, gg_scene **scene, gg_error *err)
-{
-  gg_scene *copy = gg_scene_copy_new(made, err);
-  if (!copy) return GG_FAILED;
-  *scene = copy;
-  return GG_OK;
-}
-
 /* Read a scene and its theories, whose files are searched beside `path`. */
 static gg_status read_text(const char *yaml, size_t length, const char *name, const char *path, gg_scene **scene,
                            gg_error *err)
@@ -52,19 +47,38 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
   GG_TRY(gg_scene_read(&made, yaml, length, name, err));
   gg_status status = gg_api_scene_theories_add(&made, yaml, length, name, path, err);
   status = gg_base_memory_check(before, status, err);
-  if (status == GG_OK) status = copy_to_heap(&made, scene, err);
+  if (status == GG_OK) status = gg_scene_copy(&made, scene, err);
   gg_common_extension_release(made.extension);
   return status;
+}
+
+static gg_status reject_positions(gg_scene_reader *r, const char *key, const yaml_node_t *map)
+{
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(r, map, &e);) {
+    if (strcmp(e.word, "start") == 0) GG_TRY(reject_positions(r, key, e.value));
+    if (strcmp(e.word, "positions") == 0 || strcmp(e.word, key) == 0)
+      return gg_scene_reject(r, e.value, key, "%s: cannot be read: %s", r->scene->start.positions, strerror(errno));
+  }
+  return GG_OK;
+}
+
+/* The file of positions has to be there: of scenes that people write, as stored ones outlive it. */
+static gg_status check_positions(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err)
+{
+  gg_scene_reader r = {.name = name, .lines = true, .scene = scene, .err = err};
+  if (!gg_files_positions_are_read(scene) || access(scene->start.positions, R_OK) == 0) return GG_OK;
+  return gg_scene_with_document(&r, yaml, length, "start.positions", reject_positions);
 }
 
 gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
 {
   GG_NEED(path, scene);
-  char *text;
+  GG_FREED char *text = NULL;
   size_t length;
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  gg_status status = read_text(text, length, gg_scene_file_name(path), path, scene, err);
-  free(text);
+  GG_TRY(read_text(text, length, gg_scene_file_name(path), path, scene, err));
+  const gg_status status = check_positions(*scene, text, length, gg_scene_file_name(path), err);
+  if (status != GG_OK) gg_scene_free(*scene), *scene = NULL;
   return status;
 }
 
@@ -77,7 +91,8 @@ gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, g
 gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
 {
   GG_NEED(scene, copy);
-  return copy_to_heap(scene, copy, err);
+  gg_scene *made = gg_scene_copy_new(scene, err);
+  return made ? *copy = made, GG_OK : GG_FAILED;
 }
 
 void gg_scene_free(gg_scene *scene)
@@ -96,10 +111,9 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
   GG_NEED(scene, key, text);
   const gg_scene filled = filled_in(scene);
   const unsigned before = gg_base_memory_failures();
-  json_t *value = gg_scene_key_json(&filled, key);
+  json_auto_t *value = gg_scene_key_json(&filled, key);
   if (value) gg_scene_flow_style_text(value, text, size);
-  gg_status status = value ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
-  json_decref(value);
+  gg_status status = value ? GG_OK : GG_REFUSE(err, "a scene has no key '%.60s'", key);
   return gg_base_memory_check(before, status, err);
 }
 
@@ -140,9 +154,9 @@ gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
   const unsigned before = gg_base_memory_failures();
-  json_t *root = gg_scene_json(&filled), *theories = gg_api_scene_theories_json(scene);
+  json_t *root = gg_scene_json(&filled);
+  json_auto_t *theories = gg_api_scene_theories_json(scene);
   if (root && json_object_size(theories) > 0) json_object_set(root, "theories", theories);
-  json_decref(theories);
   return gg_api_text_copy(gg_io_json_end(before, root), text, err);
 }
 
@@ -214,13 +228,13 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
   GG_NEED_CALLBACK(line);
   gg_scene finished;
   gg_engine_kind kind;
-  gg_string_list lines = {0};
+  GG_CLEARED(gg_base_string_list_clear) gg_string_list lines = {0};
   unsigned uses = GG_USE_THEORY;
   if (strcmp(use, "compare") == 0) {
     uses |= GG_USE_MD | GG_USE_DSMC;
   } else if (strcmp(use, "theory") != 0) {
     if (gg_api_engine_find(use, &kind, NULL) != GG_OK)
-      return gg_base_fail(err, GG_BAD_INPUT, "use '%.40s' is not allowed; allowed: md, dsmc, compare, theory", use);
+      return GG_REFUSE(err, "use '%.40s' is not allowed; allowed: md, dsmc, compare, theory", use);
     uses = 1u << kind;
   }
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
@@ -228,6 +242,5 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
   gg_scene_ineffective_keys(&finished, uses, &lines);
   gg_status status = gg_base_memory_check(before, GG_OK, err);
   for (size_t i = 0; status == GG_OK && i < lines.n; i++) line(context, lines.text[i]);
-  gg_base_string_list_clear(&lines);
   return gg_base_callback_settle(status, err);
 }

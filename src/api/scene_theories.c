@@ -30,13 +30,13 @@ static gg_status reject(const gg_scene_reader *r, const yaml_node_t *node, const
  * is released. */
 static gg_status add(gg_scene *scene, const gg_theory_definition *definition, json_t *source, gg_error *err)
 {
-  char *text = source ? gg_io_json_text(source, JSON_ENCODE_ANY) : NULL;
+  GG_FREED char *text = source ? gg_io_json_text(source, JSON_ENCODE_ANY) : NULL;
   json_decref(source);
-  gg_status status = text ? gg_scene_add_theory(scene, definition, err) : gg_base_out_of_memory(err);
-  if (status != GG_OK) return free(text), status;
+  if (!text) return gg_base_out_of_memory(err);
+  GG_TRY(gg_scene_add_theory(scene, definition, err));
   gg_common_extension_keep(scene->extension, definition->context);
   gg_common_extension_set_source(scene->extension, text);
-  return GG_OK;
+  return text = NULL, GG_OK;
 }
 
 /* The formulas as the scene gives them. */
@@ -102,33 +102,29 @@ static void find_file(const char *scene, const char *file, char path[PATH_MAX])
 /* Absolute path as JSON; null if it is not printable; NULL: out of memory. */
 static json_t *absolute(const char *path)
 {
-  char *whole = realpath(path, NULL);
+  GG_FREED char *whole = realpath(path, NULL);
   if (!whole && errno == ENOMEM) return NULL;
   const char *name = whole ? whole : path;
-  json_t *source = gg_base_text_is_printable(name) ? json_string(name) : json_null();
-  free(whole);
-  return source;
+  return gg_base_text_is_printable(name) ? json_string(name) : json_null();
 }
 
 static gg_status read_points(const char *path, gg_points_theory **made, char ***quantity, char **names, gg_error *err)
 {
-  char *text;
+  GG_FREED char *text = NULL;
   size_t length;
   struct stat about;
   if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block whoever reads the scene */
     return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  const gg_status status = length > GG_SCENE_MAX_BYTES
-                               ? gg_base_fail(err, GG_BAD_INPUT, "%s: is larger than 1 MiB", path)
-                               : gg_theory_points_read(text, path, made, quantity, names, err);
-  free(text);
-  return status;
+  if (length > GG_SCENE_MAX_BYTES) return GG_REFUSE(err, "%s: is larger than 1 MiB", path);
+  return gg_theory_points_read(text, path, made, quantity, names, err);
 }
 
 static gg_status add_points(const theories_reader *t, const char *key, const char *name, const yaml_node_t *node)
 {
   gg_error why;
-  char path[PATH_MAX], *names = NULL, **quantity = NULL;
+  char path[PATH_MAX];
+  GG_FREED char *names = NULL, **quantity = NULL;
   gg_points_theory *made = NULL;
   find_file(t->path, gg_scene_scalar(node), path);
   if (read_points(path, &made, &quantity, &names, &why) != GG_OK) return reject(&t->reader, node, key, &why);
@@ -142,8 +138,6 @@ static gg_status add_points(const theories_reader *t, const char *key, const cha
   gg_status status =
       add(t->scene, &definition, absolute(path), &why) == GG_OK ? GG_OK : reject(&t->reader, node, key, &why);
   if (status != GG_OK) free(made);
-  free(quantity);
-  free(names);
   return status;
 }
 

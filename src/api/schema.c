@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON Schema of scenes and sweeps; templates of scenes. */
 #include "api/api.h"
-#include "io/checked_json.h"
 #include "base/memory.h"
+#include "io/checked_json.h"
 #include "scene/fields.h"
 #include "sweep/sweep.h"
 
@@ -15,11 +15,10 @@ static json_t *varied_schema(void)
     if (f->type != GG_FIELD_SPECIES) json_array_append_new(names, json_string(f->key));
   json_t *map = json_pack("{s:s, s:{s:[{s:o}, {s:s}]}}", "type", "object", "propertyNames", "anyOf", "enum", names,
                           "pattern", "^(collision\\.(e|beta|mu)|run\\.until|species\\.[0-9]+)\\.[A-Za-z0-9_-]+$");
-  return json_pack(
-      "{s:s, s:[O, {s:s, s:o}]}", "description",
-      "Sweeps only: values of keys, as FIRST:LAST:STEP, a list, or LOW..HIGH beside random: {points: 100}. Every "
-      "combination is a point; in a list of maps the keys of one map change together.",
-      "anyOf", map, "type", "array", "items", map);
+  return json_pack("{s:s, s:[O, {s:s, s:o}]}", "description",
+                   "Sweeps only: values of keys, as FIRST:LAST:STEP, a list, or LOW..HIGH beside random: {points: "
+                   "100}. Every combination is a point; in a list of maps the keys of one map change together.",
+                   "anyOf", map, "type", "array", "items", map);
 }
 
 gg_status gg_scene_begin(const char *flow, char **text, gg_error *err)
@@ -31,7 +30,7 @@ gg_status gg_scene_begin(const char *flow, char **text, gg_error *err)
   if (!word.name) {
     char allowed[400];
     gg_scene_field_allowed(&f, allowed, sizeof allowed);
-    return gg_base_fail(err, GG_BAD_INPUT, "there is no flow '%.60s': %s", flow, allowed);
+    return GG_REFUSE(err, "there is no flow '%.60s': %s", flow, allowed);
   }
   *text = gg_scene_template((gg_flow)word.value);
   return *text ? GG_OK : gg_base_out_of_memory(err);

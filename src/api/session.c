@@ -41,8 +41,7 @@ static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
   GG_TRY(gg_api_scene_finish(scene, &s->scene, err));
   if (!gg_scene_is_given(&s->scene, "run.replicas")) s->scene.run.replicas = 1;
   if (s->scene.run.replicas != 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
-                        (long long)s->scene.run.replicas);
+    return GG_REFUSE(err, "run.replicas: %lld; a session has 1, gg_run takes more", (long long)s->scene.run.replicas);
   s->callbacks = (gg_run_callbacks){.context = s, .progress = note_progress, .interrupted = time_is_up};
   s->progress = (gg_progress){.engine = gg_common_engine_of(s->scene.engine)->name,
                               .phase = "warm-up",
@@ -65,17 +64,12 @@ static void destroy(void *session)
 gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err)
 {
   GG_NEED(scene, session);
-  gg_session *s = gg_base_array_new(1, sizeof *s, err);
+  GG_FREED gg_session *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
   gg_base_busy_init(&s->busy, "session", destroy, s);
-  gg_status status = make(s, scene, err);
-  if (status != GG_OK) {
-    free(s);
-    return status;
-  }
+  GG_TRY(make(s, scene, err));
   gg_common_extension_hold(s->scene.extension);
-  *session = s;
-  return GG_OK;
+  return GG_HAND_OVER(session, s), GG_OK;
 }
 
 void gg_session_free(gg_session *s)
@@ -87,8 +81,7 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
 {
   GG_NEED(session);
   gg_session *s = session;
-  if (!(seconds > 0))
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_session_advance: cannot advance for %g seconds", seconds);
+  if (!(seconds > 0)) return GG_REFUSE(err, "gg_session_advance: cannot advance for %g seconds", seconds);
   GG_USE_ALONE(session);
   if (!s->over) {
     s->until = gg_base_clock_wall() + seconds;
@@ -116,13 +109,9 @@ gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *e
 {
   GG_NEED(session, result);
   GG_USE_ALONE(session);
-  gg_result *made = gg_base_array_new(1, sizeof *made, err);
+  GG_CLEARED(gg_run_result_freed) gg_result *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   if (session->over) gg_run_replicas_level(&session->all);
-  gg_status status = gg_run_replicas_report(&session->all, made, err);
-  if (status == GG_OK)
-    *result = made;
-  else
-    gg_result_free(made);
-  return status;
+  GG_TRY(gg_run_replicas_report(&session->all, made, err));
+  return GG_HAND_OVER(result, made), GG_OK;
 }

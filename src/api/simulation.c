@@ -23,7 +23,8 @@ static bool is_stopped(void *context)
   return atomic_load(&s->stopped);
 }
 
-gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err)
+/* Before work that the stop callback may interrupt. */
+static gg_status check_stop(gg_simulation *s, gg_error *err)
 {
   atomic_store(&s->stopped, false);
   return gg_stop_asked(&s->stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
@@ -42,13 +43,30 @@ void gg_simulation_free(gg_simulation *s)
   if (s) gg_base_busy_free(&s->busy);
 }
 
+static gg_status give(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err)
+{
+  status = gg_base_callback_settle(status, err);
+  if (status == GG_OK)
+    *simulation = s;
+  else
+    gg_simulation_free(s);
+  return status;
+}
+
+static void open_for_use(gg_simulation *s)
+{
+  gg_base_busy_init(&s->busy, "simulation", destroy, s);
+  gg_common_extension_hold(s->scene.extension);
+  s->stop = (gg_stop){is_stopped, s};
+  s->model.stop = &s->stop;
+}
+
 /* The stop callback is polled here, because small systems start before the engine polls it, and theories never do. */
 gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *context), void *context,
                                     gg_simulation **simulation, gg_error *err)
 {
   gg_simulation *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
-  gg_base_busy_init(&s->busy, "simulation", destroy, s);
   s->scene = *scene; /* checked as it began: a rate of 0 or below is one on the way */
   if (scene->fixed.clock_rate != GG_AUTO && gg_flow_is_sheared(scene->flow))
     s->scene.shear.rate = scene->fixed.clock_rate;
@@ -58,23 +76,13 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   s->scene.fixed.clock_rate = scene->fixed.clock_rate;
   if (status == GG_OK) status = gg_scene_model_make(&s->scene, s->scene.engine, &s->model, err);
   if (status == GG_OK) status = gg_common_engine_of(s->scene.engine)->accepts(&s->model, err);
-  if (status != GG_OK) {
-    free(s);
-    return status;
-  }
-  gg_common_extension_hold(s->scene.extension);
-  s->stop = (gg_stop){is_stopped, s};
-  s->model.stop = &s->stop;
+  if (status != GG_OK) return free(s), status;
+  open_for_use(s);
   s->model.cuts_steps = true;
   s->stop_callback = stop, s->stop_context = context;
-  status = gg_api_simulation_check_stop(s, err);
+  status = check_stop(s, err);
   if (status == GG_OK && s->scene.start.temperature == GG_AUTO) status = gg_theory_start_near_steady(&s->model, err);
-  status = gg_base_callback_settle(status, err);
-  if (status == GG_OK)
-    *simulation = s;
-  else
-    gg_simulation_free(s);
-  return status;
+  return give(s, status, simulation, err);
 }
 
 gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
@@ -86,10 +94,7 @@ gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
   s->clock = other->clock;
   s->strained = other->strained;
   s->stretch_from = other->stretch_from;
-  gg_base_busy_init(&s->busy, "simulation", destroy, s);
-  gg_common_extension_hold(s->scene.extension);
-  s->stop = (gg_stop){is_stopped, s};
-  s->model.stop = &s->stop;
+  open_for_use(s);
   return s;
 }
 
@@ -97,12 +102,7 @@ gg_status gg_api_simulation_hand_over(gg_simulation *s, gg_status status, gg_sim
 {
   s->stop_callback = NULL; /* that of the start */
   atomic_store(&s->stopped, false);
-  status = gg_base_callback_settle(status, err);
-  if (status == GG_OK)
-    *simulation = s;
-  else
-    gg_simulation_free(s);
-  return status;
+  return give(s, status, simulation, err);
 }
 
 gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *options, gg_simulation **simulation,
@@ -189,7 +189,7 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
 static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   GG_TRY(update_observation(s, err)); /* the last advance may have been interrupted */
-  gg_status status = gg_api_simulation_check_stop(s, err);
+  gg_status status = check_stop(s, err);
   if (status == GG_OK) status = advance_once(s, time, most, err);
   return gg_base_callback_settle(status, err);
 }
@@ -197,8 +197,7 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
 gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err)
 {
   GG_NEED(simulation);
-  if (!(time >= 0 && time < INFINITY))
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
+  if (!(time >= 0 && time < INFINITY)) return GG_REFUSE(err, "gg_simulation_advance: cannot advance by %g", time);
   GG_USE_ALONE(simulation);
   for (uint64_t most = UINT64_MAX; time > 0;) GG_TRY(advance_stretch(simulation, &time, &most, err));
   return GG_OK;
@@ -293,7 +292,7 @@ gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_event *ev
                                gg_error *err)
 {
   GG_NEED(simulation);
-  if (events && !n) return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_record: argument 'n' is missing (NULL)");
+  if (events && !n) return GG_REFUSE(err, "gg_simulation_record: argument 'n' is missing (NULL)");
   GG_USE_ALONE(simulation);
   simulation->record.events = events;
   simulation->record.capacity = capacity;

@@ -60,11 +60,6 @@ gg_status gg_api_simulation_hand_over(gg_simulation *s, gg_status status, gg_sim
 gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err);
 /* Make a new engine report its collisions if the present engine does. */
 gg_status gg_api_simulation_observe(gg_simulation *s, gg_engine *engine, gg_error *err);
-/* Poll the stop callback before work that it may interrupt: GG_INTERRUPTED if it returns non-zero. */
-gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err);
-/* simulation_grains.c: replace the engine by one with this model and these grains (NULL members keep their values). On
- * failure nothing changes. */
-gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err);
 
 /* Set temperatures, stress, periodicity and, from state->collisions, collisions per grain. `unit`: velocities of the
  * state over those of the moments. */

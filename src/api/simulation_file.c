@@ -12,15 +12,13 @@ static const char strained_item[] = "simulation/strained";
 
 static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 {
-  char *yaml = gg_scene_yaml(&s->scene);
+  GG_FREED char *yaml = gg_scene_yaml(&s->scene);
   if (!yaml) return gg_base_out_of_memory(err);
-  gg_status status = gg_base_archive_put(a, "simulation/scene", GG_ITEM_U8, yaml, strlen(yaml), err);
-  free(yaml);
-  if (status == GG_OK) status = gg_scene_resumption_put(&s->scene, a, err);
-  if (status == GG_OK) status = gg_base_archive_put(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err);
-  if (status == GG_OK && s->strained.until > 0)
-    status = gg_base_archive_put(a, strained_item, GG_ITEM_F64, &s->strained, 2, err);
-  return status == GG_OK ? s->engine->ops->save(s->engine, a, err) : status;
+  GG_TRY(gg_base_archive_put(a, "simulation/scene", GG_ITEM_U8, yaml, strlen(yaml), err));
+  GG_TRY(gg_scene_resumption_put(&s->scene, a, err));
+  GG_TRY(gg_base_archive_put(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err));
+  if (s->strained.until > 0) GG_TRY(gg_base_archive_put(a, strained_item, GG_ITEM_F64, &s->strained, 2, err));
+  return s->engine->ops->save(s->engine, a, err);
 }
 
 gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, int (*stop)(void *context),
@@ -29,10 +27,9 @@ gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, 
   GG_NEED(simulation, path);
   GG_USE_READING(simulation);
   gg_api_request request = {stop, context, false};
-  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   gg_status status = put_all(simulation, &archive, err);
   if (status == GG_OK) status = gg_files_checkpoint_write(path, false, &archive, &simulation->scene, err);
-  gg_base_archive_clear(&archive);
   return gg_base_callback_settle(status, err);
 }
 
@@ -42,27 +39,22 @@ gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*stop)(vo
   GG_NEED(simulation, bytes, size);
   GG_USE_READING(simulation);
   gg_api_request request = {stop, context, false};
-  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
-  void *made = NULL;
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_FREED void *made = NULL;
   size_t length = 0;
   gg_status status = put_all(simulation, &archive, err);
   if (status == GG_OK) status = gg_files_checkpoint_to_bytes(&archive, &simulation->scene, &made, &length, err);
-  gg_base_archive_clear(&archive);
-  status = gg_base_callback_settle(status, err);
-  if (status == GG_OK)
-    *bytes = made, *size = length;
-  else
-    free(made);
-  return status;
+  GG_TRY(gg_base_callback_settle(status, err));
+  *size = length;
+  return GG_HAND_OVER(bytes, made), GG_OK;
 }
 
 static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *scene, gg_error *err)
 {
   const gg_item *yaml = gg_base_archive_find(a, "simulation/scene");
   if (!yaml)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: is not a saved simulation (a run resumes from a checkpoint: gg_run_options.resume)",
-                        path);
+    return GG_REFUSE(err, "%s: is not a saved simulation (a run resumes from a checkpoint: gg_run_options.resume)",
+                     path);
   *scene = gg_scene_defaults();
   return gg_scene_read(scene, yaml->data, yaml->count, path, err);
 }
@@ -94,13 +86,12 @@ gg_status gg_simulation_load(const char *path, const gg_scene *scene, int (*stop
 {
   GG_NEED(path, simulation);
   gg_api_request request = {stop, context, false};
-  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   bool older = false;
   gg_status status = gg_files_checkpoint_read(path, false, &archive, &older, err);
   if (status == GG_OK && older)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the earlier one is intact: %s.1", path, path);
   if (status == GG_OK) status = load(&archive, path, scene, &request, simulation, err);
-  gg_base_archive_clear(&archive);
   return gg_base_callback_settle(status, err);
 }
 
@@ -109,9 +100,8 @@ gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scen
 {
   GG_NEED(bytes, simulation);
   gg_api_request request = {stop, context, false};
-  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   gg_status status = gg_files_checkpoint_from_bytes(bytes, size, &archive, err);
   if (status == GG_OK) status = load(&archive, "the bytes", scene, &request, simulation, err);
-  gg_base_archive_clear(&archive);
   return gg_base_callback_settle(status, err);
 }

@@ -25,22 +25,17 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
   const gg_engine_ops *ops = gg_common_engine_of(s->scene.engine);
   GG_TRY(gg_common_grains_check(m, &given, n, err));
   if (m->n_species > 1 && !grains->species)
-    return gg_base_fail(err, GG_BAD_INPUT, "the scene has %d species: give the species of each grain", m->n_species);
+    return GG_REFUSE(err, "the scene has %d species: give the species of each grain", m->n_species);
   if (m->n_species > 1 && !m->homogeneous && !grains->position)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "grains of several species need positions: the start would part the species");
-  gg_engine_grains a = {0};
-  gg_status status = gg_common_engine_grains_make(&a, n, err);
-  if (status == GG_OK) {
-    gg_common_engine_grains_take(m, &given, 1, &a);
-    a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
-                                 .c = grains->velocity ? a.number + 3 * n : NULL,
-                                 .s = grains->spin ? a.number + 6 * n : NULL,
-                                 .species = a.species};
-    status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
-  }
-  gg_common_engine_grains_clear(&a);
-  return status;
+    return GG_REFUSE(err, "grains of several species need positions: the start would part the species");
+  GG_CLEARED(gg_common_engine_grains_clear) gg_engine_grains a = {0};
+  GG_TRY(gg_common_engine_grains_make(&a, n, err));
+  gg_common_engine_grains_take(m, &given, 1, &a);
+  a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
+                               .c = grains->velocity ? a.number + 3 * n : NULL,
+                               .s = grains->spin ? a.number + 6 * n : NULL,
+                               .species = a.species};
+  return ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
 }
 
 /* The scene with the number of grains, if it gives none. */
@@ -70,13 +65,15 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   return gg_api_simulation_hand_over(s, status, simulation, err);
 }
 
-gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err)
+/* Replace the engine by one with this model and these grains (NULL members keep their values). On failure nothing
+ * changes. */
+static gg_status go_on(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err)
 {
   const size_t n = (size_t)model->n;
   const gg_engine_ops *ops = s->engine->ops;
   const gg_grain_arrays given = grains ? arrays_of(grains) : (gg_grain_arrays){0};
   gg_engine *engine = NULL;
-  gg_engine_grains a = {0};
+  GG_CLEARED(gg_common_engine_grains_clear) gg_engine_grains a = {0};
   atomic_store(&s->stopped, false);
   gg_status status = gg_common_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
@@ -84,15 +81,10 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
     if (grains) gg_common_engine_grains_take(model, &given, gg_api_simulation_unit(s), &a);
     status = ops->create_with(model, 0, 0, &a.grains, s->engine, &engine, err);
   }
-  gg_common_engine_grains_clear(&a);
   status = gg_base_callback_settle(status, err);
+  if (status == GG_OK) status = gg_api_simulation_observe(s, engine, err);
   if (status != GG_OK) {
     if (engine) ops->destroy(engine);
-    return status;
-  }
-  status = gg_api_simulation_observe(s, engine, err);
-  if (status != GG_OK) {
-    ops->destroy(engine);
     return status;
   }
   gg_api_simulation_collect(s);
@@ -108,7 +100,7 @@ gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *g
   GG_USE_ALONE(simulation);
   const gg_grain_arrays given = arrays_of(grains);
   GG_TRY(gg_common_grains_check(&simulation->model, &given, n, err));
-  return gg_api_simulation_continue(simulation, &simulation->model, grains, err);
+  return go_on(simulation, &simulation->model, grains, err);
 }
 
 gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *context), void *context,
@@ -116,7 +108,7 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *
 {
   GG_NEED(simulation, copy);
   GG_USE_READING(simulation);
-  gg_archive archive = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   gg_simulation *s = gg_api_simulation_like(simulation, err);
   if (!s) return GG_FAILED;
   s->stop_callback = stop, s->stop_context = context;
@@ -124,7 +116,6 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *
   const gg_engine_ops *ops = simulation->engine->ops;
   gg_status status = ops->save(simulation->engine, &archive, err);
   if (status == GG_OK) status = ops->restore(&s->model, &archive, &s->engine, err);
-  gg_base_archive_clear(&archive);
   return gg_api_simulation_hand_over(s, status, copy, err);
 }
 
@@ -142,10 +133,9 @@ static bool may_change(const char *key)
 static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, gg_error *err)
 {
   if (!gg_common_is_same_gas(&s->model, &next->model))
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': this value needs other grains, another box or other units",
-                        key);
+    return GG_REFUSE(err, "key '%.60s': this value needs other grains, another box or other units", key);
   next->model.stop = &s->stop;
-  GG_TRY(gg_api_simulation_continue(s, &next->model, NULL, err));
+  GG_TRY(go_on(s, &next->model, NULL, err));
   s->strained.strain = gg_api_simulation_strain(s), s->strained.until = s->clock.time;
   s->model = next->model;
   s->scene = next->scene; /* both scenes hold the same extension */
@@ -157,19 +147,19 @@ static gg_status check_shear_rate(const gg_scene *changed, gg_error *err)
   char flows[160];
   if (gg_flow_is_sheared(changed->flow)) return gg_scene_check_shear_rate(changed, err);
   gg_common_flow_list(gg_flow_is_sheared, flows, sizeof flows);
-  return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_rate': has no effect in flow: %s; allowed in flow: %s",
-                      gg_flow_of(changed->flow)->word, flows);
+  return GG_REFUSE(err, "key 'shear_rate': has no effect in flow: %s; allowed in flow: %s",
+                   gg_flow_of(changed->flow)->word, flows);
 }
 
 gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const char *value, gg_error *err)
 {
   GG_NEED(simulation, key, value);
   if (!may_change(key))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "key '%.60s': cannot be changed on the way; allowed: " GG_PROTOCOL_KEYS
-                        ", md.contact_time, dsmc.time_step, "
-                        "walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity",
-                        key);
+    return GG_REFUSE(err,
+                     "key '%.60s': cannot be changed on the way; allowed: " GG_PROTOCOL_KEYS
+                     ", md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, "
+                     "walls.accommodation, gravity",
+                     key);
   GG_USE_ALONE(simulation);
   gg_scene changed = simulation->scene;
   changed.fixed.clock_rate = gg_scene_clock_rate(&simulation->scene);

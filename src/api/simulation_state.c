@@ -48,8 +48,7 @@ gg_status gg_api_moments_species(const gg_moments *m, int species, double unit, 
 {
   const gg_model *model = m->model;
   if (species < 0 || species >= model->n_species)
-    return gg_base_fail(err, GG_BAD_INPUT, "there is no species %d: this scene has %d, counted from 0", species,
-                        model->n_species);
+    return GG_REFUSE(err, "there is no species %d: this scene has %d, counted from 0", species, model->n_species);
   const double per = unit * unit / (3 * (double)model->n_of[species]);
   *state = (gg_species_state){.grains = (size_t)model->n_of[species],
                               .diameter = model->diameter[species],
@@ -99,8 +98,7 @@ gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_gra
   GG_USE_READING(simulation);
   const gg_model *model = &simulation->model;
   if (into->position && model->homogeneous)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions",
-                        simulation->engine->ops->name);
+    return GG_REFUSE(err, "%s is spatially homogeneous: it has no positions", simulation->engine->ops->name);
   gg_common_engine_grains_copy(simulation->engine, model, gg_api_simulation_unit(simulation), into->position,
                                into->velocity, into->spin, into->species);
   return GG_OK;
@@ -157,17 +155,14 @@ gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg
   GG_USE_READING(simulation);
   gg_simulation_state state;
   GG_TRY(gg_simulation_get_state(simulation, &state, err));
-  double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);
-  if (!numbers) return GG_FAILED;
-  int *species = gg_base_array_new(state.grains, sizeof *species, err);
+  GG_FREED double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);
+  GG_FREED int *species = gg_base_array_new(state.grains, sizeof *species, err);
+  if (!numbers || !species) return GG_FAILED;
   const gg_grains grains = {.position = simulation->model.homogeneous ? NULL : numbers,
                             .velocity = numbers + 3 * state.grains,
                             .spin = numbers + 6 * state.grains,
                             .species = species};
-  gg_status status = species ? gg_simulation_get_grains(simulation, &grains, err) : GG_FAILED;
+  GG_TRY(gg_simulation_get_grains(simulation, &grains, err));
   const gg_grain_arrays all = {grains.position, grains.velocity, grains.spin, grains.species};
-  if (status == GG_OK) *hash = gg_common_grains_hash(state.collisions, &all, state.grains);
-  free(species);
-  free(numbers);
-  return status;
+  return *hash = gg_common_grains_hash(state.collisions, &all, state.grains), GG_OK;
 }

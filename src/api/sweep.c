@@ -63,13 +63,12 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
 gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err)
 {
   GG_NEED(path, sweep);
-  char *text, inside[PATH_MAX];
+  GG_FREED char *text = NULL;
+  char inside[PATH_MAX];
   size_t length;
   if (gg_sweep_folder_text_path(path, inside) && access(inside, R_OK) == 0) path = inside;
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  gg_status status = read_text(text, length, gg_scene_file_name(path), path, sweep, err);
-  free(text);
-  return status;
+  return read_text(text, length, gg_scene_file_name(path), path, sweep, err);
 }
 
 gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, gg_error *err)
@@ -80,9 +79,7 @@ gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, g
 
 static gg_status check_open(const gg_sweep *sweep, gg_error *err)
 {
-  return sweep->n
-             ? gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep was checked already and cannot be changed", sweep->name)
-             : GG_OK;
+  return sweep->n ? GG_REFUSE(err, "%s: the sweep was checked already and cannot be changed", sweep->name) : GG_OK;
 }
 
 gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err)
@@ -90,8 +87,7 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
   GG_NEED(sweep, key, value);
   GG_USE_ALONE(sweep);
   GG_TRY(check_open(sweep, err));
-  if (gg_sweep_varies(sweep, key))
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: each point sets its own value", key);
+  if (gg_sweep_varies(sweep, key)) return GG_REFUSE(err, "key '%.60s': is varied: each point sets its own value", key);
   return strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
                                         : gg_scene_override(sweep->base, key, value, err);
 }
@@ -100,19 +96,16 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
 {
   GG_NEED(sweep, key, values);
   GG_USE_ALONE(sweep);
-  gg_values list = {0};
+  GG_CLEARED(gg_sweep_values_clear) gg_values list = {0};
   snprintf(list.key, sizeof list.key, "%s", key);
   GG_TRY(check_open(sweep, err));
-  gg_status status = gg_sweep_values_parse(&list, values, err);
-  if (status == GG_OK && list.range)
-    status =
-        gg_base_fail(err, GG_BAD_INPUT,
-                     "key '%.60s': LOW..HIGH is for random draws, which a sweep's file asks for; here first:last:step "
-                     "or v1,v2,...",
-                     key);
-  if (status == GG_OK) status = gg_sweep_add_rows(sweep, &list, 1, err);
-  gg_sweep_values_clear(&list);
-  return status;
+  GG_TRY(gg_sweep_values_parse(&list, values, err));
+  if (list.range)
+    return GG_REFUSE(
+        err,
+        "key '%.60s': LOW..HIGH is for random draws, which a sweep's file asks for; here first:last:step or v1,v2,...",
+        key);
+  return gg_sweep_add_rows(sweep, &list, 1, err);
 }
 
 gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err)
@@ -134,10 +127,9 @@ const char *gg_sweep_does(const gg_sweep *sweep)
 
 static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
 {
-  if (!sweep->n) return gg_base_fail(err, GG_BAD_INPUT, "%s: call gg_sweep_check first", sweep->name);
+  if (!sweep->n) return GG_REFUSE(err, "%s: call gg_sweep_check first", sweep->name);
   if (i >= sweep->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
-                        sweep->n);
+    return GG_REFUSE(err, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1, sweep->n);
   return GG_OK;
 }
 

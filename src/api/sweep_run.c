@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gg_sweep_run: runs the missing points of a folder, several at a time. */
+#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -62,10 +63,9 @@ static uint64_t id_of(const controller *c)
 static int note_progress(void *context, const gg_progress *progress)
 {
   controller *c = context;
-  pthread_mutex_lock(&c->all->lock);
+  GG_LOCKED(&c->all->lock);
   c->item->fraction = progress->fraction;
   c->item->relative_error = progress->relative_error;
-  pthread_mutex_unlock(&c->all->lock);
   return 0;
 }
 
@@ -77,11 +77,10 @@ static int is_stopped(void *context)
 static void note_warning(void *context, const char *message)
 {
   sweep_run *all = ((controller *)context)->all;
-  bool known = false;
-  pthread_mutex_lock(&all->lock);
-  for (size_t i = 0; i < all->warnings.n && !known; i++) known = strcmp(all->warnings.text[i], message) == 0;
-  if (!known) gg_base_string_list_add(&all->warnings, "%s", message);
-  pthread_mutex_unlock(&all->lock);
+  GG_LOCKED(&all->lock);
+  for (size_t i = 0; i < all->warnings.n; i++)
+    if (strcmp(all->warnings.text[i], message) == 0) return;
+  gg_base_string_list_add(&all->warnings, "%s", message);
 }
 
 /* Rename NAME.work.h5 by the status of the run. */
@@ -93,28 +92,25 @@ static gg_status commit(void *context, gg_status run, gg_error *err)
 
 static gg_status evaluate(controller *c, const gg_scene *scene, const gg_run_options *options, gg_error *err)
 {
-  gg_comparison *made = NULL;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *made = NULL;
   gg_result_file file;
-  gg_status status = gg_theories_evaluate(scene, NULL, is_stopped, c, &made, err);
-  for (int k = 0; made && k < GG_N_ENGINES; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not run");
-  if (status == GG_OK) status = gg_files_result_file_open(&file, options->output, options->command, err);
-  if (status == GG_OK) status = gg_files_result_file_finish_comparison(&file, made, err);
-  if (status == GG_OK) status = commit(c, GG_OK, err);
-  gg_comparison_free(made);
-  return status;
+  GG_TRY(gg_theories_evaluate(scene, NULL, is_stopped, c, &made, err));
+  for (int k = 0; k < GG_N_ENGINES; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not run");
+  GG_TRY(gg_files_result_file_open(&file, options->output, options->command, err));
+  GG_TRY(gg_files_result_file_finish_comparison(&file, made, err));
+  return commit(c, GG_OK, err);
 }
 
 /* Run a point; *resume_lost: the checkpoint cannot be resumed. */
 static gg_status simulate(controller *c, const gg_scene *scene, const gg_run_options *options, bool *resume_lost,
                           gg_error *err)
 {
-  gg_comparison *made = NULL;
+  GG_CLEARED(gg_api_comparison_freed) gg_comparison *made = NULL;
   gg_point_call point = {.scheduler = c->all->scheduler, .commit = commit, .context = c};
   const bool both = c->all->sweep->settings.does == GG_DOES_COMPARE;
   gg_status status = gg_api_run_simulate(&point, scene, options, both, &made, err);
   c->incomplete = status == GG_FAILED && made;
   *resume_lost = point.resume_lost;
-  gg_comparison_free(made);
   return status;
 }
 
@@ -189,7 +185,7 @@ static void do_item(controller *c)
     there = gg_sweep_point_status(all->folder, id_of(c));
   }
   gg_io_file_lock_release(&lock);
-  pthread_mutex_lock(&all->lock);
+  GG_LOCKED(&all->lock);
   it->status = status;
   it->here = claimed;
   it->incomplete = c->incomplete || there == GG_POINT_SHORT;
@@ -198,7 +194,6 @@ static void do_item(controller *c)
   snprintf(it->message, sizeof it->message, "%.500s", err.message);
   it->state = status == GG_OK && !claimed && there == GG_POINT_MISSING ? ELSEWHERE : ENDED;
   pthread_cond_signal(&all->changed);
-  pthread_mutex_unlock(&all->lock);
 }
 
 /* The next pending item; otherwise the item of another process with the oldest check, if a check is due; NULL: none.
@@ -303,7 +298,7 @@ static void report_ended_points(sweep_run *all)
 static gg_status do_all(sweep_run *all, size_t at_once, gg_error *err)
 {
   const gg_sweep_options *o = &all->options;
-  controller *c = gg_base_array_new(at_once, sizeof *c, err);
+  GG_FREED controller *c = gg_base_array_new(at_once, sizeof *c, err);
   if (!c) return GG_FAILED;
   pthread_mutex_lock(&all->lock);
   size_t n = 0;
@@ -323,7 +318,6 @@ static gg_status do_all(sweep_run *all, size_t at_once, gg_error *err)
   report_ended_points(all);
   pthread_mutex_unlock(&all->lock);
   for (size_t k = 0; k < n; k++) gg_run_controller_join(&c[k].thread);
-  free(c);
   return n ? GG_OK : gg_base_fail(err, GG_FAILED, "no thread could be started");
 }
 
@@ -378,9 +372,9 @@ static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error
 {
   const gg_sweep *sweep = all->sweep;
   size_t aside[3] = {0}; /* by gg_point_file */
-  known *ids = gg_base_array_new(end - first, sizeof *ids, err);
+  GG_FREED known *ids = gg_base_array_new(end - first, sizeof *ids, err);
   all->item = gg_base_array_new(end - first, sizeof *all->item, err);
-  if (!ids || !all->item) return free(ids), GG_FAILED;
+  if (!ids || !all->item) return GG_FAILED;
   for (size_t i = first; i < end; i++) ids[i - first] = (known){sweep->point[i].id, i};
   qsort(ids, end - first, sizeof *ids, by_id);
   for (size_t k = 0; k < end - first; k++) {
@@ -392,7 +386,6 @@ static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error
     if (state == GG_POINT_MISSING)
       all->item[all->n++] = (item){.i = ids[k].i, .checked = sweep->point[ids[k].i].seconds};
   }
-  free(ids);
   report_aside(all, aside[GG_POINT_FILE_OTHER_BUILD], aside[GG_POINT_FILE_DAMAGED]);
   qsort(all->item, all->n, sizeof *all->item, by_length);
   return GG_OK;
@@ -430,6 +423,9 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   if (sweep->settings.does == GG_DOES_THEORY)
     all.options.workers = NULL; /* workers share replicas, and theories have none */
   if (!all.options.command) all.options.command = "the graingas library";
+  if (gg_files_positions_are_read(sweep->base) && access(sweep->base->start.positions, R_OK) != 0)
+    return gg_base_fail(err, GG_BAD_FILE, "%s: key 'start.positions': %s: cannot be read: %s", sweep->name,
+                        sweep->base->start.positions, strerror(errno));
   GG_TRY(gg_sweep_folder_prepare(folder, "the results of a sweep are a folder with a file for each point", err));
   GG_TRY(gg_sweep_folder_note(sweep, folder, err));
   gg_sweep_folder_tidy(folder);
@@ -465,7 +461,6 @@ gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, cons
   GG_TRY(gg_sweep_check(sweep, err));
   GG_USE_READING(sweep);
   if (i >= sweep->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
-                        sweep->n);
+    return GG_REFUSE(err, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1, sweep->n);
   return run(sweep, folder, i, i + 1, &own, err);
 }

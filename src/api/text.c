@@ -41,8 +41,7 @@ gg_status gg_api_arguments_check(const char *function, const char *names, const 
 {
   for (size_t i = 0; i < n; i++, names += strcspn(names, ",") + 2)
     if (!argument[i])
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: argument '%.*s' is missing (NULL)", function,
-                          (int)strcspn(names, ","), names);
+      return GG_REFUSE(err, "%s: argument '%.*s' is missing (NULL)", function, (int)strcspn(names, ","), names);
   return GG_OK;
 }
 
@@ -52,9 +51,9 @@ gg_status gg_api_options_copy(const char *function, void *copy, size_t own_size,
   memset(copy, 0, own_size);
   if (!options) return GG_OK;
   if (size == 0 || size > own_size)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: options.size is %zu, allowed is sizeof options: at most %zu in this library (graingas %s)",
-                        function, size, own_size, gg_base_build_version);
+    return GG_REFUSE(err,
+                     "%s: options.size is %zu, allowed is sizeof options: at most %zu in this library (graingas %s)",
+                     function, size, own_size, gg_base_build_version);
   memcpy(copy, options, size);
   return GG_OK;
 }
@@ -70,7 +69,7 @@ gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *e
 {
   for (int k = 0; k < GG_N_ENGINES; k++)
     if (strcmp(gg_common_engine_of(k)->name, name) == 0) return *kind = (gg_engine_kind)k, GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "there is no engine called '%.40s'; there are md and dsmc", name);
+  return GG_REFUSE(err, "there is no engine called '%.40s'; there are md and dsmc", name);
 }
 
 gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
@@ -100,8 +99,8 @@ gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_
 {
   gg_nearest nearest = {.word = name};
   for (int i = 0; i < rows->n; i++) gg_base_spelling_try(&nearest, rows->row[i].name);
-  if (!nearest.best) return gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name);
-  return gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'; did you mean '%s'?", name, nearest.best);
+  if (!nearest.best) return GG_REFUSE(err, "there is no quantity called '%.60s'", name);
+  return GG_REFUSE(err, "there is no quantity called '%.60s'; did you mean '%s'?", name, nearest.best);
 }
 
 void gg_text_make_printable(char *text)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "api/api.h"
+#include "base/memory.h"
 #include "io/output_path.h"
 #include "plot/plot.h"
 #include "sweep/standard_grid.h"
@@ -31,24 +32,21 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
   GG_NEED(sweep, folder, verdict);
   gg_validate_options o;
   GG_COPY_OPTIONS(o, options);
-  gg_point_table table;
+  GG_CLEARED(gg_sweep_point_table_clear) gg_point_table table = {0};
   gg_api_request request = {o.stop, context, false};
   const gg_stop stop = {gg_api_is_requested, &request};
   *verdict = NULL;
   GG_TRY(gg_sweep_check(sweep, err));
   if (sweep->settings.does != GG_DOES_COMPARE)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: does: %s; validation needs does: compare", sweep->name,
-                        gg_sweep_does(sweep));
+    return GG_REFUSE(err, "%s: does: %s; validation needs does: compare", sweep->name, gg_sweep_does(sweep));
   if (gg_io_path_is_same_file(o.page, sweep->name))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own page; choose another page",
-                        sweep->name);
+    return GG_REFUSE(err, "%s: would be overwritten by its own page; choose another page", sweep->name);
   if (o.picture) GG_TRY(gg_plot_paper_check(o.picture, o.width, err));
   gg_status status = gg_sweep_point_table_read(&table, sweep, folder, &stop, err);
   if (status == GG_OK) {
     warn_of_builds(&table, &o, context);
     status = gg_sweep_validate_table(&table, sweep, &o, written, context, &stop, verdict, err);
   }
-  gg_sweep_point_table_clear(&table);
   status = gg_base_callback_settle(status, err);
   if (status != GG_OK && status != GG_FAILED) free(*verdict), *verdict = NULL;
   return status;

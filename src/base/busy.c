@@ -35,17 +35,15 @@ static gg_status refuse(const gg_busy *busy, const char *function, gg_error *err
 {
   const char *user = atomic_load(&busy->user);
   if (gg_base_busy_is_freed(busy))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: the %s was freed; make another one", function, busy->what);
+    return GG_REFUSE(err, "%s: the %s was freed; make another one", function, busy->what);
   if (gg_base_busy_is_inside(busy))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: called from a callback of %s, which uses this %s; call it after %s has returned", function,
-                        user, busy->what, user);
+    return GG_REFUSE(err, "%s: called from a callback of %s, which uses this %s; call it after %s has returned",
+                     function, user, busy->what, user);
   if (!(atomic_load(&busy->users) & GG_BUSY_ALONE))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a call in progress reads this %s; call it after that has returned",
-                        function, busy->what);
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "%s: another thread uses this %s; use it in one thread at a time, or one %s in each thread",
-                      function, busy->what, busy->what);
+    return GG_REFUSE(err, "%s: a call in progress reads this %s; call it after that has returned", function,
+                     busy->what);
+  return GG_REFUSE(err, "%s: another thread uses this %s; use it in one thread at a time, or one %s in each thread",
+                   function, busy->what, busy->what);
 }
 
 gg_status gg_base_use_begin(gg_use *use, const gg_busy *handle, bool alone, const char *function, gg_error *err)

@@ -41,6 +41,16 @@ void gg_base_condition_wait(pthread_cond_t *news, pthread_mutex_t *lock, double 
   pthread_cond_timedwait(news, lock, &until);
 }
 
+pthread_mutex_t *gg_base_locked(pthread_mutex_t *mutex)
+{
+  return pthread_mutex_lock(mutex), mutex;
+}
+
+void gg_base_unlocked(pthread_mutex_t *const *mutex)
+{
+  pthread_mutex_unlock(*mutex);
+}
+
 double gg_base_clock_cpu(void)
 {
   return read_clock(CLOCK_THREAD_CPUTIME_ID);

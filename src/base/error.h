@@ -20,4 +20,7 @@ gg_status gg_base_error_prefix(gg_error *err, gg_status status, const char *form
     if (gg_try_status != GG_OK) return gg_try_status;                                                                  \
   } while (0)
 
+/* The commonest failure: bad input. */
+#define GG_REFUSE(err, ...) gg_base_fail(err, GG_BAD_INPUT, __VA_ARGS__)
+
 #endif

@@ -52,6 +52,18 @@ void *gg_base_array_new(size_t count, size_t size, gg_error *err)
   return block;
 }
 
+void gg_base_freed(void *place)
+{
+  void *pointer;
+  memcpy(&pointer, place, sizeof pointer);
+  free(pointer);
+}
+
+void gg_base_closed(FILE **place)
+{
+  if (*place) fclose(*place);
+}
+
 /* Address space alone: malloc may fill what it gives (MALLOC_PERTURB_, which meson sets for tests), and HDF5's writer
  * asks here before each of its hundreds of calls. */
 bool gg_base_memory_is_room(void)
@@ -65,16 +77,11 @@ bool gg_base_memory_is_room(void)
 static double number_in(const char *path, const char *key)
 {
   char line[256];
-  double value = INFINITY, found;
-  FILE *in = fopen(path, "r");
-  if (!in) return INFINITY;
-  while (fgets(line, sizeof line, in)) {
-    if (strncmp(line, key, strlen(key)) != 0 || sscanf(line + strlen(key), " %lf", &found) != 1) continue;
-    value = found;
-    break;
-  }
-  fclose(in);
-  return value;
+  double found;
+  GG_CLOSED FILE *in = fopen(path, "r");
+  while (in && fgets(line, sizeof line, in))
+    if (strncmp(line, key, strlen(key)) == 0 && sscanf(line + strlen(key), " %lf", &found) == 1) return found;
+  return INFINITY;
 }
 
 /* Memory left within a group's limit; its file cache can be reclaimed. */
@@ -96,7 +103,7 @@ static double left_in_groups(void)
   char line[256];
   double least =
       left_in_group("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_cache");
-  FILE *in = fopen("/proc/self/cgroup", "r");
+  GG_CLOSED FILE *in = fopen("/proc/self/cgroup", "r");
   while (in && fgets(line, sizeof line, in)) {
     if (strncmp(line, "0::", 3) != 0) continue;
     line[strcspn(line, "\n")] = 0;
@@ -109,7 +116,6 @@ static double left_in_groups(void)
       *last = 0;
     }
   }
-  if (in) fclose(in);
   return least;
 }
 

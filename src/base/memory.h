@@ -13,6 +13,16 @@
 
 #include "base/error.h"
 
+/* Declarations: at the end of its block a pointer from malloc (at first NULL) is freed, and a struct is cleared by a
+ * function that takes its address. */
+#define GG_FREED GG_CLEARED(gg_base_freed)
+#define GG_CLOSED GG_CLEARED(gg_base_closed) /* of a FILE, which may be NULL */
+#define GG_CLEARED(clear) __attribute__((cleanup(clear)))
+void gg_base_freed(void *place);
+void gg_base_closed(FILE **place);
+/* Hand over to *to what is no longer freed here. */
+#define GG_HAND_OVER(to, from) (*(to) = (from), (from) = NULL)
+
 /* calloc with an overflow check; NULL only with the message already written. */
 void *gg_base_array_new(size_t count, size_t size, gg_error *err);
 

@@ -169,8 +169,7 @@ static gg_status refuse(const char *word, gg_error *err)
     if (subjects[i].name)
       snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed), "%s%s", *allowed ? ", " : "",
                subjects[i].name);
-  return gg_base_fail(err, GG_BAD_INPUT, "bench: '%s' is not known; allowed: %s, compare, or nothing for an overview",
-                      word, allowed);
+  return GG_REFUSE(err, "bench: '%s' is not known; allowed: %s, compare, or nothing for an overview", word, allowed);
 }
 
 gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options *options, gg_error *err)
@@ -180,7 +179,7 @@ gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options 
   while (i < N_SUBJECTS && (subject ? !subjects[i].name || strcmp(subject, subjects[i].name) != 0 : i > 0)) i++;
   if (i == N_SUBJECTS) return refuse(subject, err);
   if (options->picture && subjects[i].run != gg_bench_error)
-    return gg_base_fail(err, GG_BAD_INPUT, "bench: --picture is for bench error, which has one");
+    return GG_REFUSE(err, "bench: --picture is for bench error, which has one");
   GG_TRY(take_seed(b, err));
   const gg_status status = subjects[i].run(b, err);
   if (gg_base_memory_failures() != b->failures) return b->measured = false, gg_base_out_of_memory(err);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "bench/bench.h"
 
@@ -22,11 +23,10 @@ typedef struct comparison {
 
 static gg_status add_line(json_t *rows, const char *path, int number, const char *line, gg_error *err)
 {
-  json_t *row = gg_io_json_read(line, NULL);
+  json_auto_t *row = gg_io_json_read(line, NULL);
   const char *name = gg_io_json_string(row, "name");
   const bool good = *name && gg_base_text_is_printable(name) && *gg_io_json_string(row, "unit");
   if (good) json_object_set(rows, name, row);
-  json_decref(row);
   return good
              ? GG_OK
              : gg_base_fail(err, GG_BAD_FILE, "%s, line %d: not a row that graingas bench --json prints", path, number);
@@ -35,17 +35,13 @@ static gg_status add_line(json_t *rows, const char *path, int number, const char
 /* Read a file; of several rows with one name, the last counts. */
 static gg_status read_rows(const char *path, json_t *rows, gg_error *err)
 {
-  char *line = NULL;
+  GG_FREED char *line = NULL;
   size_t room = 0;
-  gg_status status = GG_OK;
-  FILE *in = fopen(path, "r");
+  GG_CLOSED FILE *in = fopen(path, "r");
   if (!in) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  for (int n = 1; status == GG_OK && getline(&line, &room, in) > 0; n++) status = add_line(rows, path, n, line, err);
-  free(line);
-  fclose(in);
-  if (status == GG_OK && json_object_size(rows) == 0)
-    return gg_base_fail(err, GG_BAD_FILE, "%s: no rows that graingas bench --json prints", path);
-  return status;
+  for (int n = 1; getline(&line, &room, in) > 0; n++) GG_TRY(add_line(rows, path, n, line, err));
+  if (json_object_size(rows) > 0) return GG_OK;
+  return gg_base_fail(err, GG_BAD_FILE, "%s: no rows that graingas bench --json prints", path);
 }
 
 /* The time of a row, for rates their inverse. */

@@ -94,14 +94,12 @@ static gg_status draw(const gg_bench *b, const gg_error_state *s, gg_error *err)
   for (const char *c = title; *c; c++)
     if (*c != ',') word[n++] = *c == ' ' ? '-' : *c;
   word[n] = '\0';
-  char *picture = gg_plot_page_name(b->options->picture, "", word, &paper);
+  GG_FREED char *picture = gg_plot_page_name(b->options->picture, "", word, &paper);
   gg_chart *c = gg_plot_chart_new();
   for (int q = 0; c && q < GG_COURSE_QUANTITIES; q++)
     if (has(s, q)) add_panel(c, s, q);
   if (c) c->title = title, c->lacks |= !picture;
-  gg_status status = c ? gg_plot_chart_finish(c, &paper, picture, err) : gg_base_out_of_memory(err);
-  free(picture);
-  return status;
+  return c ? gg_plot_chart_finish(c, &paper, picture, err) : gg_base_out_of_memory(err);
 }
 
 static const char seconds_caption[] =
@@ -213,8 +211,8 @@ static void add_course(const gg_bench *b, gg_bench_table *table, const gg_error_
 static void put_floors(const gg_bench *b, gg_bench_table *table, int row, const gg_error_state *s, int q)
 {
   const gg_by_size *md = &s->size[GG_MD][q], *dsmc = &s->size[GG_DSMC][q];
-  const gg_course_end one = gg_bench_error_course_last(&s->course[DOUBLE], q),
-                      other = gg_bench_error_course_last(&s->course[SINGLE], q);
+  const gg_course_end one = gg_statistics_course_last(&s->course[DOUBLE], q),
+                      other = gg_statistics_course_last(&s->course[SINGLE], q);
   const double unit = s->unit[q], single = (other.mean - one.mean) / unit, e = hypot(one.error, other.error) / unit;
   gg_bench_table_put(table, row, 2, "%.6g", s->truth[GG_DSMC][q]);
   gg_bench_table_put(table, row, 3, "%.1e", s->truth_error[GG_DSMC][q] / unit);
@@ -313,9 +311,6 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
 
 gg_status gg_bench_error(gg_bench *b, gg_error *err)
 {
-  gg_error_state *s = gg_base_array_new(MOST_STATES, sizeof *s, err);
-  if (!s) return GG_FAILED;
-  gg_status status = measure(b, s, err);
-  free(s);
-  return status;
+  GG_FREED gg_error_state *s = gg_base_array_new(MOST_STATES, sizeof *s, err);
+  return s ? measure(b, s, err) : GG_FAILED;
 }

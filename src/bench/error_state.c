@@ -74,7 +74,9 @@ static gg_status follow(gg_replicas *all, gg_course *c, int seed, double seconds
   return GG_OK;
 }
 
-gg_status gg_bench_error_course_measure(const gg_scene *scene, int seeds, double seconds, gg_course *c, gg_error *err)
+/* Each run warms up as usual and averages until it has used `seconds`. Marks are at the same numbers of samples in all
+ * runs; each window is half as long again as the last. */
+static gg_status measure(const gg_scene *scene, int seeds, double seconds, gg_course *c, gg_error *err)
 {
   *c = (gg_course){.seeds = seeds < GG_COURSE_SEEDS ? seeds : GG_COURSE_SEEDS};
   gg_scene s = *scene;
@@ -86,34 +88,6 @@ gg_status gg_bench_error_course_measure(const gg_scene *scene, int seeds, double
     GG_TRY(status);
   }
   return GG_OK;
-}
-
-static void moments(const gg_course *c, int q, int mark, double *mean, double *variance)
-{
-  *mean = *variance = 0;
-  for (int i = 0; i < c->seeds; i++) *mean += c->mean[q][mark][i] / c->seeds;
-  for (int i = 0; i < c->seeds; i++) *variance += pow(c->mean[q][mark][i] - *mean, 2) / (c->seeds - 1);
-}
-
-gg_course_end gg_bench_error_course_last(const gg_course *c, int q)
-{
-  double mean, variance;
-  moments(c, q, c->marks - 1, &mean, &variance);
-  /* The scatter of a few runs may be too small by chance: use the error from blocks as a lower bound. */
-  double scatter = c->seeds < 2 ? c->error[q] : fmax(sqrt(variance), c->error[q] > 0 ? c->error[q] : 0);
-  return (gg_course_end){mean, scatter / sqrt(c->seeds), scatter};
-}
-
-double gg_bench_error_course_noise(const gg_course *c, int q)
-{
-  double sum = 0;
-  int n = 0;
-  for (int k = c->marks / 2; k < c->marks; k++, n++) {
-    double mean, variance;
-    moments(c, q, k, &mean, &variance);
-    sum += variance * (c->seconds[k] - c->warmup);
-  }
-  return sqrt(sum / n);
 }
 
 const gg_error_method gg_bench_error_methods[GG_ERROR_METHODS] = {
@@ -154,7 +128,7 @@ static gg_by_size fit_size(const gg_error_state *s, gg_engine_kind engine, int q
   for (int i = 0; i < GG_ERROR_METHODS; i++) {
     const gg_error_method *way = &gg_bench_error_methods[i];
     if (!s->done[i] || way->engine != engine || way->step != 0 || way->single) continue; /* not engines by themselves */
-    const gg_course_end end = gg_bench_error_course_last(&s->course[i], q);
+    const gg_course_end end = gg_statistics_course_last(&s->course[i], q);
     const double x = 1 / (double)gg_bench_error_methods[i].n, g = 1 / (end.error * end.error);
     if (!(end.error > 0)) continue;
     w += g, wx += g * x, wxx += g * x * x, wy += g * end.mean, wxy += g * x * end.mean;
@@ -214,7 +188,7 @@ static bool wants_long_run(const gg_error_state *s, double seconds)
     for (int i = 0; i < GG_ERROR_METHODS; i++) {
       const gg_course *c = &s->course[i];
       if (s->done[i] && gg_bench_error_methods[i].engine == GG_DSMC && seconds > c->warmup)
-        best = fmin(best, gg_bench_error_course_noise(c, q) / sqrt(seconds - c->warmup));
+        best = fmin(best, gg_statistics_course_noise(c, q) / sqrt(seconds - c->warmup));
     }
     wants |= !s->source[GG_DSMC][q] || s->truth_error[GG_DSMC][q] > best / 10;
   }
@@ -231,9 +205,9 @@ static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds
   if (wants_long_run(s, seconds)) {
     gg_bench_report(b, "phi %g, e %g: a run of %.0f s for the truth", s->phi, s->e, LONGER * seconds);
     gg_course c;
-    GG_TRY(gg_bench_error_course_measure(&scene, 1, LONGER * seconds, &c, err));
+    GG_TRY(measure(&scene, 1, LONGER * seconds, &c, err));
     for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
-      const gg_course_end end = gg_bench_error_course_last(&c, q);
+      const gg_course_end end = gg_statistics_course_last(&c, q);
       set_reference(s, GG_DSMC, q, end.mean, end.error, "long run");
     }
   }
@@ -254,7 +228,7 @@ static void fit_step(gg_error_state *s, int q)
   double shift[2], error[2];
   const int way[2] = {STEP_1, STEP_HALF};
   for (int i = 0; i < 2; i++) {
-    const gg_course_end end = gg_bench_error_course_last(&s->course[way[i]], q);
+    const gg_course_end end = gg_statistics_course_last(&s->course[way[i]], q);
     const double size = s->size[GG_DSMC][q].per_grain / (double)gg_bench_error_methods[way[i]].n;
     shift[i] = (end.mean - s->truth[GG_DSMC][q] - size) / s->unit[q];
     error[i] = hypot(end.error, s->truth_error[GG_DSMC][q]) / s->unit[q];
@@ -276,7 +250,7 @@ static void find_errors(gg_error_state *s)
       const double each = (double)w->n * s->unit[q], square = w->step * w->step;
       const double floor = size->per_grain / each + s->step_coefficient[q] * square;
       const double error = hypot(size->per_grain_error / each, s->step_coefficient_error[q] * square);
-      s->noise[i][q] = gg_bench_error_course_noise(&s->course[i], q) / s->unit[q];
+      s->noise[i][q] = gg_statistics_course_noise(&s->course[i], q) / s->unit[q];
       s->shift[i][q] = fabs(floor);
       s->shift_error[i][q] = error;
       s->floor[i][q] = sqrt(fmax(floor * floor - error * error, 0));
@@ -292,7 +266,7 @@ gg_status gg_bench_error_state_measure(const gg_bench *b, gg_error_state *s, int
     if (s->phi == 0 && gg_bench_error_methods[i].engine == GG_MD) continue;
     gg_bench_report(b, "%s: %s (%d of %d)", name, gg_bench_error_methods[i].name, i + 1, GG_ERROR_METHODS);
     const gg_scene scene = scene_of(b, s, &gg_bench_error_methods[i]);
-    GG_TRY(gg_bench_error_course_measure(&scene, seeds, seconds, &s->course[i], err));
+    GG_TRY(measure(&scene, seeds, seconds, &s->course[i], err));
     s->done[i] = true;
   }
   GG_TRY(find_truth(b, s, seconds, err));
@@ -302,13 +276,9 @@ gg_status gg_bench_error_state_measure(const gg_bench *b, gg_error_state *s, int
 
 double gg_bench_error_at(const gg_error_state *s, int way, int q, int mark, double *error)
 {
-  const gg_course *c = &s->course[way];
-  const double truth = s->truth[gg_bench_error_methods[way].engine][q];
-  double square = 0;
-  for (int i = 0; i < c->seeds; i++) square += pow(c->mean[q][mark][i] - truth, 2) / c->seeds;
-  const double rms = sqrt(square) / s->unit[q];
-  *error = rms / sqrt(2.0 * c->seeds);
-  return rms;
+  const double truth = s->truth[gg_bench_error_methods[way].engine][q], unit = s->unit[q];
+  const double rms = gg_statistics_course_distance(&s->course[way], q, mark, truth, error);
+  return *error /= unit, rms / unit;
 }
 
 double gg_bench_seconds_to(const gg_error_state *s, int way, int q, double error)

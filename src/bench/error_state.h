@@ -6,35 +6,11 @@
 #include "bench/bench.h"
 #include "common/engine.h"
 #include "common/quantity.h"
+#include "statistics/error_course.h"
 
-/* Means of one scene against processor time (warm-up included), for several seeds. */
-enum { GG_COURSE_QUANTITIES = 5, GG_COURSE_MARKS = 32, GG_COURSE_SEEDS = 8 };
 /* Quantities. Shear: T, P_xy, N1, kurtosis of C_x (the fourth moment; shear has no a2), theta/T. Free cooling: reduced
  * cooling rate, a2, kurtoses of C_x and of the spin, theta/T. */
 const gg_quantity *gg_bench_error_quantities(gg_flow flow);
-
-typedef struct gg_course {
-  int seeds, marks;
-  double warmup;                                                       /* seconds, mean over seeds */
-  double seconds[GG_COURSE_MARKS];                                     /* since the start, mean over seeds */
-  double mean[GG_COURSE_QUANTITIES][GG_COURSE_MARKS][GG_COURSE_SEEDS]; /* over the window up to the mark; NaN: none */
-  double error[GG_COURSE_QUANTITIES]; /* standard error that the first run estimates at its end */
-} gg_course;
-
-/* Measure: each run warms up as usual and averages until it has used `seconds`. Marks are at the same numbers of
- * samples in all runs; each window is half as long again as the last. */
-gg_status gg_bench_error_course_measure(const gg_scene *scene, int seeds, double seconds, gg_course *course,
-                                        gg_error *err);
-
-/* At the last mark: mean over the runs, its standard error, and the scatter of one run (over seeds, or as estimated by
- * the first run, whichever is larger). */
-typedef struct gg_course_end {
-  double mean, error, scatter;
-} gg_course_end;
-gg_course_end gg_bench_error_course_last(const gg_course *course, int quantity);
-/* Statistical error of a mean over one second of averaging: scatter times the root of the averaging time, from the
- * later half of the marks. */
-double gg_bench_error_course_noise(const gg_course *course, int quantity);
 
 typedef struct gg_error_method { /* a method of simulation */
   gg_engine_kind engine;

@@ -17,7 +17,7 @@ static void tell(void *context, const char *text)
 
 static int print_table(const gg_bench_table *s)
 {
-  gg_table *t = gg_cli_table_new();
+  GG_CLI_FREED gg_table *t = gg_cli_table_new();
   if (!t) return gg_cli_fail(GG_FAILED, "out of memory");
   for (int c = 0; c < s->n_columns; c++) gg_cli_table_column(t, s->head[c], s->right[c]);
   for (int r = 0; r < s->n_rows; r++) {
@@ -27,7 +27,6 @@ static int print_table(const gg_bench_table *s)
   if (s->caption) gg_cli_print_wrapped(stdout, "", s->caption), putchar('\n');
   if (*s->title) printf("%s\n\n", s->title);
   gg_cli_table_print(t, stdout, s->keep);
-  free(t);
   return GG_OK;
 }
 
@@ -51,12 +50,11 @@ static int print(const gg_bench *b)
 
 static int compare(const gg_options *o)
 {
-  char *text;
+  GG_CLI_FREED char *text = NULL;
   gg_error err;
   if (!o->more[1]) return gg_cli_fail(GG_BAD_INPUT, "bench compare needs two files: A.json B.json");
   const gg_status status = gg_bench_compare(o->more[0], o->more[1], o->limit, o->json, &text, &err);
   if (text) fputs(text, stdout);
-  free(text);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 

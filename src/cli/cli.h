@@ -9,16 +9,19 @@
 
 #define GG_CLI_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
 
+/* Declaration: a pointer from malloc (at first NULL) is freed at the end of its block. */
+#define GG_CLI_FREED __attribute__((cleanup(gg_cli_freed)))
+void gg_cli_freed(void *place);
+
 struct gg_options;
 /* The work of a subcommand; returns the exit code. main() parses its options before and frees them afterwards. */
 typedef int gg_command_main(const struct gg_options *options);
 
 typedef struct gg_command {
   const char *name;
-  const char *arguments; /* "SCENE.yaml" */
+  const char *arguments; /* "SCENE.yaml"; with a blank: up to GG_MORE_INPUTS further ones */
   const char *summary;   /* one line */
   const char *help;      /* paragraphs for --help; NULL: none */
-  unsigned options;      /* sum of the GG_OPT_... that the command takes */
   gg_command_main *run;
 } gg_command;
 
@@ -39,6 +42,11 @@ int gg_cli_fail(gg_status status, const char *format, ...) GG_CLI_PRINTF(2, 3);
 
 /* Set a message of the command line, to be printed later; returns `status`. */
 gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...) GG_CLI_PRINTF(3, 4);
+
+/* Append to a text in a buffer of `size` bytes, cut to it. */
+void gg_cli_append(char *text, size_t size, const char *format, ...) GG_CLI_PRINTF(3, 4);
+/* Whether a word is among those of a text, separated by blanks. */
+bool gg_cli_has_word(const char *words, const char *word);
 
 /* Warn on standard error about an unusual result file (gg_result_file_notice). */
 void gg_cli_print_notice(const char *result_file);

@@ -57,34 +57,23 @@ bool gg_cli_quantity_is_minor(const char *name)
   return is && strcmp(name, "viscosity_reduced_kinetic") != 0;
 }
 
-bool gg_cli_theory_answers(const gg_entry *theory, const char *quantity)
-{
-  const size_t length = strlen(quantity);
-  for (const char *at = theory->answers; at && (at = strstr(at, quantity)); at += length)
-    if ((at == theory->answers || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
-  return false;
-}
-
-size_t gg_cli_theories_of(const char *quantity, char *text, size_t size)
+/* The theories that may give a quantity. */
+static void list_theories(const char *quantity, char *text, size_t size)
 {
   gg_entry theory;
-  size_t used = 0, n = 0;
   *text = '\0';
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_THEORIES, i, NULL, &theory, NULL) == GG_OK; i++)
-    if (used < size && gg_cli_theory_answers(&theory, quantity))
-      used += (size_t)snprintf(text + used, size - used, "%s%s", n++ ? ", " : "", theory.name);
-  return n;
+    if (gg_cli_has_word(theory.answers, quantity)) gg_cli_append(text, size, "%s%s", *text ? ", " : "", theory.name);
 }
 
 /* Quantities of a theory, without those that only --all prints. */
 static void list_answers(const gg_entry *theory, char *text, size_t size)
 {
   gg_entry q;
-  size_t used = 0;
   *text = '\0';
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++)
-    if (used < size && !gg_cli_quantity_is_minor(q.name) && gg_cli_theory_answers(theory, q.name))
-      used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", q.name);
+    if (!gg_cli_quantity_is_minor(q.name) && gg_cli_has_word(theory->answers, q.name))
+      gg_cli_append(text, size, "%s%s", *text ? ", " : "", q.name);
 }
 
 /* `most`: rows of a text. The text that defines the word may have two. */
@@ -101,8 +90,8 @@ static void define_quantity(const gg_entry *q, int most)
   print_rows("", text, most);
   line("definition", q->doc, twice(most));
   line("measured in", q->when, most);
-  if (!gg_cli_theories_of(q->name, text, sizeof text)) snprintf(text, sizeof text, "none");
-  line("theories", text, most);
+  list_theories(q->name, text, sizeof text);
+  line("theories", *text ? text : "none", most);
 }
 
 static void define_key(const gg_entry *f, bool of_species, int most)
@@ -150,8 +139,7 @@ static void define_observable(const gg_entry *o, int most)
     char *text = strcmp(engine, "md") == 0 ? md : dsmc;
     const char *last = strrchr(text, ' ');
     if (json_object_get(missing, "scene") || json_object_get(missing, o->name)) continue;
-    if (strcmp(last ? last + 1 : text, flow) != 0)
-      snprintf(text + strlen(text), sizeof md - strlen(text), "%s%s", *text ? ", " : "", flow);
+    if (strcmp(last ? last + 1 : text, flow) != 0) gg_cli_append(text, sizeof md, "%s%s", *text ? ", " : "", flow);
   }
   json_decref(all);
   define_word(o, "an observable (measure: [...])", most);
@@ -175,9 +163,11 @@ static void define(gg_catalogue list, const gg_entry *entry, int most)
 
 static bool find(const char *word, gg_catalogue *list, gg_entry *entry)
 {
+  const char *member = strncmp(word, "species.", 8) == 0 ? word + 8 : word; /* "species.torque" */
   for (int k = 0; k < LISTS; k++)
     for (size_t i = 0; gg_catalogue_entry(lists[k], i, NULL, entry, NULL) == GG_OK; i++)
-      if (strcmp(entry->name, word) == 0) return *list = lists[k], true;
+      if (strcmp(entry->name, lists[k] == GG_CATALOGUE_SPECIES_KEYS ? member : word) == 0)
+        return *list = lists[k], true;
   return false;
 }
 
@@ -269,12 +259,8 @@ void gg_cli_print_headline(const gg_scene *scene)
 {
   gg_entry q;
   char names[400] = "";
-  size_t used = 0;
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, scene, &q, NULL) == GG_OK; i++)
-    if (q.headline && used < sizeof names)
-      used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", q.name);
-  if (used)
-    gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): %s", names);
-  else
-    gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): none in this scene");
+    if (q.headline) gg_cli_append(names, sizeof names, "%s%s", *names ? ", " : "", q.name);
+  gg_cli_print_paragraph(stdout, 2, "headline quantities (run.relative_error applies to these): %s",
+                         *names ? names : "none in this scene");
 }

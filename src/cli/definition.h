@@ -12,9 +12,6 @@ int gg_cli_define(const char *word, bool all);
 
 /* Whether only --all prints a quantity: parts and components. */
 bool gg_cli_quantity_is_minor(const char *name);
-bool gg_cli_theory_answers(const gg_entry *theory, const char *quantity);
-/* List the theories that may give a quantity, separated by commas; returns their number. */
-size_t gg_cli_theories_of(const char *quantity, char *text, size_t size);
 
 /* Print the headline quantities, whose errors end a run of the scene, in one line. */
 void gg_cli_print_headline(const gg_scene *scene);

@@ -115,7 +115,7 @@ int gg_cli_export_main(const gg_options *o)
   int code = take_parts(o->only, &parts);
   if (code == GG_CLI_GO_ON) code = check_output(o->output);
   if (code != GG_CLI_GO_ON) return code;
-  char *prefix = prefix_of(o);
+  GG_CLI_FREED char *prefix = prefix_of(o);
   if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");
   allow_many_files();
   gg_cli_print_notice(o->input);
@@ -123,7 +123,5 @@ int gg_cli_export_main(const gg_options *o)
   gg_status status = gg_export(o->input, prefix, parts, print_file, show_progress, NULL, &c, &err);
   gg_cli_line_clear(&c.line);
   if (status == GG_OK && c.grains) print_if_heights(o->input);
-  code = status == GG_OK ? GG_OK : gg_cli_report(&err);
-  free(prefix);
-  return code;
+  return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }

@@ -93,7 +93,7 @@ static void print_means(const gg_comparison *c)
   int column[2] = {-1, -1};
   gg_measurement q, m;
   const gg_result *md = gg_comparison_result(c, "md"), *one = md ? md : gg_comparison_result(c, "dsmc");
-  gg_table *t = gg_cli_table_new();
+  GG_CLI_FREED gg_table *t = gg_cli_table_new();
   if (!t) return;
   gg_cli_table_column(t, "quantity", false);
   for (int k = 0; k < GG_CLI_ENGINES; k++)
@@ -112,7 +112,6 @@ static void print_means(const gg_comparison *c)
   }
   printf("\n");
   gg_cli_table_print(t, stdout, 1);
-  free(t);
 }
 
 static void print_verdict(const gg_result *r)
@@ -132,49 +131,37 @@ static bool has_numbers(const double *x, size_t n)
   return false;
 }
 
-/* Print a text from a memory stream as a paragraph and free it; `whole`: all writes to the stream succeeded. */
-static void print_and_free(FILE *out, char **text, bool whole)
-{
-  if (out && fclose(out) == 0 && whole && *text && **text) print_line(NULL, *text);
-  free(*text);
-}
-
 static void print_series(const gg_result *r)
 {
   gg_result_info about;
   gg_entry q;
   const double *value;
-  char *text = NULL;
-  size_t n, size;
-  bool whole = true;
+  char text[4000] = "";
+  size_t n;
   if (gg_result_get_info(r, &about, NULL) != GG_OK) return;
-  FILE *out = open_memstream(&text, &size);
-  for (size_t i = 0; out && gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++) {
     if (gg_result_history(r, q.name, &n, NULL, &value, NULL) != GG_OK || !has_numbers(value, n)) continue;
-    if (ftell(out) == 0)
-      whole &= fprintf(out, "%s series of %zu samples, averaged from %g to %g:", about.engine, n, about.window[0],
-                       about.window[1]) > 0;
-    whole &= fprintf(out, " %s", q.name) > 0;
+    if (!*text)
+      gg_cli_append(text, sizeof text, "%s series of %zu samples, averaged from %g to %g:", about.engine, n,
+                    about.window[0], about.window[1]);
+    gg_cli_append(text, sizeof text, " %s", q.name);
   }
-  print_and_free(out, &text, whole);
+  if (*text) print_line(NULL, text);
 }
 
 /* List time series, frames, curves and theories, for plots or other tools. */
 static void print_contents(const gg_comparison *c, const gg_result_info *about)
 {
   gg_theory_info theory;
-  char *text = NULL;
-  size_t size;
-  bool whole = true;
+  char text[4000] = "";
   printf("\nalso in the file:\n");
   for (int k = 0; k < GG_CLI_ENGINES; k++) print_series(gg_comparison_result(c, gg_cli_engines[k]));
   if (about->frames)
     printf("  %zu frame%s of %ld grains (/particles/grains)\n", about->frames, about->frames > 1 ? "s" : "",
            (long)about->grains);
-  FILE *out = open_memstream(&text, &size);
-  for (size_t i = 0; out && gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
-    if (!theory.reason) whole &= fprintf(out, "%s%s", ftell(out) ? ", " : "theories: ", theory.name) > 0;
-  print_and_free(out, &text, whole);
+  for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++)
+    if (!theory.reason) gg_cli_append(text, sizeof text, "%s%s", *text ? ", " : "theories: ", theory.name);
+  if (*text) print_line(NULL, text);
 }
 
 static void print_file(const gg_options *o, const gg_comparison *c)
@@ -182,7 +169,7 @@ static void print_file(const gg_options *o, const gg_comparison *c)
   const gg_result *md = gg_comparison_result(c, "md"), *dsmc = gg_comparison_result(c, "dsmc");
   gg_theory_info theory;
   gg_result_info about;
-  char *scene = NULL;
+  GG_CLI_FREED char *scene = NULL;
   bool comparison = gg_comparison_theory(c, 0, &theory, NULL) == GG_OK;
   if (gg_result_get_info(md ? md : dsmc, &about, NULL) != GG_OK) { /* a point of a sweep over theories */
     gg_cli_print_theories(c, true);
@@ -193,7 +180,6 @@ static void print_file(const gg_options *o, const gg_comparison *c)
   printf("%s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s",
          comparison ? "a comparison" : "a run", about.version, about.command, about.date, about.machine,
          scene ? scene : "");
-  free(scene);
   print_means(c);
   print_verdict(md);
   print_verdict(dsmc);
@@ -205,7 +191,7 @@ static bool print_checkpoint(const gg_options *o)
 {
   gg_checkpoint_info about;
   gg_scene *scene = NULL;
-  char *yaml = NULL;
+  GG_CLI_FREED char *yaml = NULL;
   if (gg_checkpoint_about(o->input, &about, &scene, NULL) != GG_OK) return false;
   const char *what = strcmp(about.kind, "simulation") == 0 ? "a saved" : "a checkpoint of a";
   gg_cli_print_name(stdout, "", o->input, about.older ? ".1: " : ": ");
@@ -221,7 +207,6 @@ static bool print_checkpoint(const gg_options *o)
   if (about.frames) printf("  %llu frames of its trajectory beside it\n", (unsigned long long)about.frames);
   gg_scene_to_yaml(scene, &yaml, NULL);
   printf("\nscene:\n%s", yaml ? yaml : "");
-  free(yaml);
   gg_scene_free(scene);
   return true;
 }

@@ -26,11 +26,10 @@ static int write_scene(const gg_options *o, const char *path, const char *text)
 int gg_cli_init_main(const gg_options *o)
 {
   gg_error err;
-  char path[256], *text = NULL;
+  char path[256];
+  GG_CLI_FREED char *text = NULL;
   const char *flow = o->input ? o->input : "usf";
   if (gg_scene_begin(flow, &text, &err) != GG_OK) return gg_cli_report(&err);
   snprintf(path, sizeof path, "%s.yaml", flow);
-  const int code = write_scene(o, o->output ? o->output : path, text);
-  free(text);
-  return code;
+  return write_scene(o, o->output ? o->output : path, text);
 }

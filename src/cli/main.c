@@ -15,11 +15,10 @@
 
 static void print_help(void)
 {
-  gg_cli_print_paragraph(
-      stdout, 0,
-      "graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog Monte "
-      "Carlo and theory\n\nUsage: graingas COMMAND ...\n",
-      gg_version());
+  gg_cli_print_paragraph(stdout, 0,
+                         "graingas %s: granular gases of hard spheres, by event-driven molecular dynamics, Enskog "
+                         "Monte Carlo and theory\n\nUsage: graingas COMMAND ...\n",
+                         gg_version());
   for (const gg_command *c = gg_cli_commands; c->name; c++) {
     char left[64], lead[80];
     snprintf(left, sizeof left, "%s %s", c->name, c->arguments);
@@ -57,7 +56,7 @@ static int unknown(const char *word)
                        program_invocation_name, word);
   if (has_value(word, "--help") || has_value(word, "--version"))
     return gg_cli_fail(GG_BAD_INPUT, "option '%.*s' takes no value", (int)strcspn(word, "="), word);
-  for (const gg_option *o = gg_cli_options_table; o->flag; o++)
+  for (const gg_option *o = gg_cli_options_table; o->name; o++)
     if (strncmp(word, "--", 2) == 0 && strcmp(o->name, word + 2) == 0)
       return gg_cli_fail(GG_BAD_INPUT, "options come after the command: %s COMMAND %s ...", program_invocation_name,
                          word);

@@ -12,70 +12,72 @@
 #include "cli/processes.h"
 
 #define AT(member) offsetof(gg_options, member)
+/* In place of a place: the value is converted. */
+enum { ENGINE = sizeof(gg_options), SET, THEORY, COLLISIONS, SEED, THREADS, VARY, LIMIT };
 const gg_option gg_cli_options_table[] = {
-    {GG_OPT_ENGINE, "engine", "md|dsmc", 0, "engine to run instead of the scene's"},
-    {GG_OPT_SET, "set", "KEY=VALUE", 0, "override a key of the scene, e.g. collision.e=0.8; repeatable"},
-    {GG_OPT_THEORY, "theory", "NAME", 0, "evaluate this theory only, or several: NAME,NAME; repeatable"},
-    {GG_OPT_COLLISIONS, "collisions", "N", 0, "number of collisions between grains to simulate (default: 100000)"},
-    {GG_OPT_SEED, "seed", "N", 0, "seed of the random streams (run.seed)"},
-    {GG_OPT_THREADS, "threads", "N", 0,
+    {"run fingerprint", "engine", "md|dsmc", ENGINE, "engine to run instead of the scene's"},
+    {"compare run theory sweep validate info fingerprint page", "set", "KEY=VALUE", SET,
+     "override a key of the scene, e.g. collision.e=0.8; repeatable"},
+    {"theory", "theory", "NAME", THEORY, "evaluate this theory only, or several: NAME,NAME; repeatable"},
+    {"fingerprint", "collisions", "N", COLLISIONS, "number of collisions between grains to simulate (default: 100000)"},
+    {"compare run sweep validate fingerprint page bench", "seed", "N", SEED, "seed of the random streams (run.seed)"},
+    {"compare run sweep validate bench", "threads", "N", THREADS,
      "threads to use; results do not depend on it (default: all processors; under mpirun one a process)"},
-    {GG_OPT_OUTPUT, "output", "FILE", AT(output),
+    {"compare run plot init page", "output", "FILE", AT(output),
      "file to write (default: NAME of the input, in the current folder: NAME.h5, of a comparison NAME.compare.h5)"},
-    {GG_OPT_PREFIX, "output", "PREFIX", AT(output),
+    {"export", "output", "PREFIX", AT(output),
      "prefix of the file names (default: the input's name, in the current folder)"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "vary", "KEY=VALUES", 0,
+    {"sweep validate", "vary", "KEY=VALUES", VARY,
      "vary one more key, FIRST:LAST:STEP or v1,v2,..., e.g. phi=0.1:0.5:0.1; repeatable, every combination is a point"},
-    {GG_OPT_SWEEP, "does", "WHAT", AT(does), "command for each point: run, compare or theory (sweep.does)"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "list", NULL, AT(list),
-     "list the points, their state and the expected time; run nothing"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "point", "K", AT(point), "run only the K-th point of the list"},
-    {GG_OPT_SWEEP, "collect", NULL, AT(collect),
+    {"sweep", "does", "WHAT", AT(does), "command for each point: run, compare or theory (sweep.does)"},
+    {"sweep validate", "list", NULL, AT(list), "list the points, their state and the expected time; run nothing"},
+    {"sweep validate", "point", "K", AT(point), "run only the K-th point of the list"},
+    {"sweep", "collect", NULL, AT(collect),
      "collect the results of all points: FOLDER.csv, FOLDER.h5 and the picture FOLDER.svg; run nothing"},
-    {GG_OPT_SWEEP, "over", "KEY", AT(over),
+    {"sweep", "over", "KEY", AT(over),
      "with --collect: the key along the picture's axis (default: the one with most values)"},
-    {GG_OPT_SWEEP, "show", "QUANTITIES", AT(show),
+    {"sweep", "show", "QUANTITIES", AT(show),
      "with --collect: quantities in the picture, separated by commas (default: the main ones)"},
-    {GG_OPT_SWEEP, "log", "AXES", AT(log),
+    {"sweep", "log", "AXES", AT(log),
      "with --collect: logarithmic axes, x, y, xy or none (default: y where its values span more than a decade and a "
      "half)"},
-    {GG_OPT_SWEEP, "relative-to", "METHOD", AT(relative_to),
+    {"sweep", "relative-to", "METHOD", AT(relative_to),
      "with --collect: draw deviations from a method, md, dsmc or a theory, e.g. enskog_hermite"},
-    {GG_OPT_SWEEP, "theories", "THEORIES", AT(mapped),
+    {"sweep", "theories", "THEORIES", AT(mapped),
      "with --collect: theories in the picture, separated by commas (default: all)"},
-    {GG_OPT_VALIDATE, "show", "QUANTITIES", AT(show),
+    {"validate", "show", "QUANTITIES", AT(show),
      "quantities to map, separated by commas (default: temperature, temperature_ratio, pressure, shear_viscosity, N1, "
      "N2)"},
-    {GG_OPT_VALIDATE, "theories", "THEORIES", AT(mapped),
+    {"validate", "theories", "THEORIES", AT(mapped),
      "theories in the maps, separated by commas (default: lun1991 and those of the file)"},
-    {GG_OPT_VALIDATE, "page", "FILE", AT(page), "write maps, counts and tables as a page of Markdown"},
-    {GG_OPT_PAGE, "page", "FILE", AT(page),
-     "the page of a release, or one that was built (default: the installed one)"},
-    {GG_OPT_SWEEP, "slurm", NULL, AT(slurm), "print a Slurm script for an array of tasks; run nothing"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "output", "FOLDER", AT(output),
+    {"validate", "page", "FILE", AT(page), "write maps, counts and tables as a page of Markdown"},
+    {"page", "page", "FILE", AT(page), "the page of a release, or one that was built (default: the installed one)"},
+    {"sweep", "slurm", NULL, AT(slurm), "print a Slurm script for an array of tasks; run nothing"},
+    {"sweep validate", "output", "FOLDER", AT(output),
      "folder of the points' files (default: NAME.sweep, in the current folder)"},
-    {GG_OPT_ONLY, "only", "PARTS", AT(only), "parts to write: results, curves, trajectory; separated by commas"},
-    {GG_OPT_PICTURE, "picture", "FILE", AT(picture),
+    {"export", "only", "PARTS", AT(only), "parts to write: results, curves, trajectory; separated by commas"},
+    {"compare sweep validate bench", "picture", "FILE", AT(picture),
      "picture to draw, .svg, .png, .pdf or .gp (script for gnuplot), or none (default: .svg beside the output; bench: "
      "none)"},
-    {GG_OPT_PICTURE | GG_OPT_FORMAT, "width", "WIDTH", AT(width),
+    {"compare sweep validate plot bench", "width", "WIDTH", AT(width),
      "width of the picture on paper, e.g. 86mm: mm, cm, in or pt (default: as for a screen)"},
-    {GG_OPT_FORMAT, "format", "svg|png|pdf|gp", AT(format),
+    {"plot", "format", "svg|png|pdf|gp", AT(format),
      "format of the picture (default: from the output's name, else svg)"},
-    {GG_OPT_RESUME, "resume", "FILE", AT(resume), "resume from this checkpoint"},
-    {GG_OPT_RESUME, "extend", "RESULT", AT(extend),
+    {"compare run", "resume", "FILE", AT(resume), "resume from this checkpoint"},
+    {"compare run", "extend", "RESULT", AT(extend),
      "continue this finished run, of output.state: kept, to other stopping criteria; in place of SCENE.yaml"},
-    {GG_OPT_ACCEPT, "accept-version", NULL, AT(accept_version),
+    {"compare run sweep validate", "accept-version", NULL, AT(accept_version),
      "use checkpoints and points of sweeps of another build, whose numbers may differ"},
-    {GG_OPT_ALL, "all", NULL, AT(all), "show everything: every quantity, not only the main ones; whole definitions"},
-    {GG_OPT_JSON, "json", NULL, AT(json),
+    {"compare run theory info", "all", NULL, AT(all),
+     "show everything: every quantity, not only the main ones; whole definitions"},
+    {"compare run theory sweep validate info fingerprint bench", "json", NULL, AT(json),
      "results as one JSON document on standard output, and nothing else there; bench: a line for each row"},
-    {GG_OPT_SCHEMA, "schema", NULL, AT(schema),
+    {"info", "schema", NULL, AT(schema),
      "JSON Schema of scenes and sweeps, by which editors complete keys and mark errors"},
-    {GG_OPT_LIMIT, "limit", "PERCENT", 0,
+    {"bench", "limit", "PERCENT", LIMIT,
      "bench compare: exit code 1 if a row is slower by more than this beyond its spread (default: no limit)"},
-    {GG_OPT_QUICK, "quick", NULL, AT(quick), "fewer sizes and fewer repeats"},
-    {GG_OPT_QUIET, "quiet", NULL, AT(quiet), "no progress"},
+    {"validate bench", "quick", NULL, AT(quick), "fewer sizes and fewer repeats"},
+    {NULL, "quiet", NULL, AT(quiet), "no progress"},
     {0},
 };
 
@@ -84,8 +86,8 @@ void gg_cli_command_print_help(const gg_command *c)
   printf("Usage: graingas %s %s [OPTION...]\n\n", c->name, c->arguments);
   gg_cli_print_paragraph(stdout, 0, "%s.%s%s\n", c->summary, c->help ? "\n\n" : "", c->help ? c->help : "");
   printf("Options:\n");
-  for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
-    if (!(c->options & o->flag)) continue;
+  for (const gg_option *o = gg_cli_options_table; o->name; o++) {
+    if (!gg_cli_option_is_of(o, c)) continue;
     char name[40], left[60];
     snprintf(name, sizeof name, "--%s%s%s", o->name, o->argument ? " " : "", o->argument ? o->argument : "");
     snprintf(left, sizeof left, "  %-18s  ", name);
@@ -94,12 +96,16 @@ void gg_cli_command_print_help(const gg_command *c)
   gg_cli_print_wrapped(stdout, "  --help              ", "this text");
 }
 
-/* "compare, bench" */
-static void list_takers(unsigned flags, char *text, size_t size)
+bool gg_cli_option_is_of(const gg_option *o, const gg_command *c)
 {
-  size_t used = 0;
-  for (const gg_command *c = gg_cli_commands; c->name && used < size; c++)
-    if (c->options & flags) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", c->name);
+  return !o->commands || gg_cli_has_word(o->commands, c->name);
+}
+
+static bool takes(const gg_command *c, const char *option)
+{
+  for (const gg_option *o = gg_cli_options_table; o->name; o++)
+    if (strcmp(o->name, option) == 0 && gg_cli_option_is_of(o, c)) return true;
+  return false;
 }
 
 /* Reject an unknown option; "-json" is not a group of short options. */
@@ -107,23 +113,19 @@ static int refuse_option(const gg_command *c, const char *typed)
 {
   char word[48];
   const char *known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {NULL};
+  char takers[80] = ""; /* commands that take an option of this name */
   int n = 0;
-  unsigned others = 0; /* options of this name that the command does not take */
   snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
   const char *name = word + strspn(word, "-");
-  for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
-    bool same = word[1] == '-' && strcmp(o->name, name) == 0;
-    if (same) others |= o->flag;
-    if (!(c->options & o->flag)) continue;
-    if (same)
+  for (const gg_option *o = gg_cli_options_table; o->name; o++) {
+    if (!gg_cli_option_is_of(o, c)) continue;
+    if (word[1] == '-' && strcmp(o->name, name) == 0)
       return gg_cli_fail(GG_BAD_INPUT, o->argument ? "option '%s' needs a value" : "option '%s' takes no value", word);
     known[n++] = o->name;
   }
-  if (others) {
-    char takers[80] = "";
-    list_takers(others, takers, sizeof takers);
-    return gg_cli_fail(GG_BAD_INPUT, "%s has no option '%s', which is for %s", c->name, word, takers);
-  }
+  for (const gg_command *other = gg_cli_commands; other->name && word[1] == '-'; other++)
+    if (takes(other, name)) gg_cli_append(takers, sizeof takers, "%s%s", *takers ? ", " : "", other->name);
+  if (*takers) return gg_cli_fail(GG_BAD_INPUT, "%s has no option '%s', which is for %s", c->name, word, takers);
   if (strcmp(word, "--help") == 0) return gg_cli_fail(GG_BAD_INPUT, "option '--help' takes no value");
   known[n] = "help";
   const char *nearest = gg_nearest_word(name, known);
@@ -166,39 +168,38 @@ static int take(gg_options *o, const gg_option *t, const char *value)
 {
   double n = 0;
   int code = GG_CLI_GO_ON;
-  switch (t->flag) {
-  case GG_OPT_SET: return add_override(o, NULL, value);
-  case GG_OPT_SEED: return add_override(o, "run.seed", value);
-  case GG_OPT_ENGINE: return add_override(o, "engine", value);
-  case GG_OPT_THEORY: return take_theory(o, value);
-  case GG_OPT_LIMIT: return take_number(t->name, value, false, 0, 1e6, &o->limit);
-  case GG_OPT_THREADS:
+  switch (t->at) {
+  case SET: return add_override(o, NULL, value);
+  case SEED: return add_override(o, "run.seed", value);
+  case ENGINE: return add_override(o, "engine", value);
+  case THEORY: return take_theory(o, value);
+  case LIMIT: return take_number(t->name, value, false, 0, 1e6, &o->limit);
+  case THREADS:
     code = take_number(t->name, value, true, 1, 4096, &n);
     if (code == GG_CLI_GO_ON) o->threads = (int)n;
     return code;
-  case GG_OPT_COLLISIONS:
+  case COLLISIONS:
     code = take_number(t->name, value, true, 1, 1e12, &n);
     if (code == GG_CLI_GO_ON) o->collisions = (uint64_t)n;
     return code;
-  default: break;
-  }
-  if (!t->at) {
+  case VARY:
     if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
     o->vary[o->n_vary++] = value;
-    return GG_CLI_GO_ON;
+    return code;
+  default: break;
   }
   if (t->argument)
     *(const char **)((char *)o + t->at) = value;
   else
     *(bool *)((char *)o + t->at) = true;
-  return GG_CLI_GO_ON;
+  return code;
 }
 
 static void list_known(const gg_command *c, struct option *known)
 {
   int n = 0;
-  for (const gg_option *t = gg_cli_options_table; t->flag; t++)
-    if (c->options & t->flag)
+  for (const gg_option *t = gg_cli_options_table; t->name; t++)
+    if (gg_cli_option_is_of(t, c))
       known[n++] = (struct option){t->name, t->argument ? required_argument : no_argument, NULL,
                                    256 + (int)(t - gg_cli_options_table)};
   known[n] = (struct option){"help", no_argument, NULL, 'h'};
@@ -207,7 +208,7 @@ static void list_known(const gg_command *c, struct option *known)
 /* Set the first argument, the further ones that are allowed, and the first surplus one. */
 static void take_input(const gg_command *c, gg_options *o, const char *word)
 {
-  int k = c->options & GG_OPT_MORE ? 0 : GG_MORE_INPUTS;
+  int k = strchr(c->arguments, ' ') ? 0 : GG_MORE_INPUTS;
   while (k < GG_MORE_INPUTS && o->more[k]) k++;
   const char **free_place = !o->input ? &o->input : k < GG_MORE_INPUTS ? &o->more[k] : &o->surplus;
   if (!*free_place) *free_place = word;
@@ -245,7 +246,7 @@ static int check_words(const gg_command *c, const gg_options *o)
     return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, o->surplus);
   if (o->output && strcmp(o->output, "-") == 0)
     return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is not a file to write%s",
-                       c->options & GG_OPT_JSON ? "; --json prints to standard output" : "");
+                       takes(c, "json") ? "; --json prints to standard output" : "");
   if (o->input && !*o->input)
     return gg_cli_fail(GG_BAD_INPUT, "%s: the file name is empty; see %s %s --help", c->name, program_invocation_name,
                        c->name);
@@ -264,10 +265,10 @@ static int take_extended(gg_options *o)
   o->state = o->resume ? strdup(o->resume) : gg_cli_path_of_checkpoint(o->extend);
   if (!o->state) return gg_cli_fail(GG_FAILED, "out of memory");
   if (!gg_cli_file_exists(o->state))
-    return gg_cli_fail(GG_BAD_FILE,
-                       "%s: has no state to continue from: %s is not there (it stays after a run of a scene "
-                       "with output.state: kept)",
-                       o->extend, o->state);
+    return gg_cli_fail(
+        GG_BAD_FILE,
+        "%s: has no state to continue from: %s is not there (it stays after a run of a scene with output.state: kept)",
+        o->extend, o->state);
   o->input = o->extend, o->resume = o->state;
   if (!o->output) o->output = o->extend;
   return GG_CLI_GO_ON;
@@ -321,8 +322,10 @@ gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *
   gg_checkpoint_info about;
   gg_status status = o->extend ? gg_checkpoint_about(o->state, &(gg_checkpoint_info){0}, scene, err)
                                : gg_scene_load(o->input, scene, err);
+  if (status == GG_OK && o->extend && gg_cli_file_exists(o->extend))
+    status = gg_checkpoint_check_result(o->state, o->extend, err);
   /* A checkpoint has the tables of its scene, whose files may be gone. */
-  if (status != GG_OK && o->resume && strstr(err->message, ": cannot be read: ") &&
+  if (status != GG_OK && o->resume && !o->extend && strstr(err->message, ": cannot be read: ") &&
       gg_checkpoint_about(o->resume, &about, scene, NULL) == GG_OK) {
     fprintf(stderr, "warning: %s; the scene is that of %s\n", err->message, o->resume);
     status = GG_OK;

@@ -5,39 +5,14 @@
 
 #include "cli/cli.h"
 
-enum {
-  GG_OPT_SET = 1u << 0,
-  GG_OPT_OUTPUT = 1u << 1,
-  GG_OPT_JSON = 1u << 2,
-  GG_OPT_SEED = 1u << 3,
-  GG_OPT_THREADS = 1u << 4,
-  GG_OPT_QUIET = 1u << 5,
-  GG_OPT_RESUME = 1u << 6,
-  GG_OPT_ENGINE = 1u << 7,
-  GG_OPT_ALL = 1u << 8,
-  GG_OPT_FORMAT = 1u << 9,
-  GG_OPT_PICTURE = 1u << 10,
-  GG_OPT_QUICK = 1u << 11,
-  GG_OPT_PREFIX = 1u << 12,
-  GG_OPT_ONLY = 1u << 13,
-  GG_OPT_SWEEP = 1u << 14, /* options of sweep alone */
-  GG_OPT_PAGE = 1u << 15,
-  GG_OPT_COLLISIONS = 1u << 16,
-  GG_OPT_ACCEPT = 1u << 17,
-  GG_OPT_THEORY = 1u << 18,
-  GG_OPT_VALIDATE = 1u << 19, /* options of validate alone */
-  GG_OPT_LIMIT = 1u << 20,
-  GG_OPT_SCHEMA = 1u << 22,
-  GG_OPT_MORE = 1u << 21, /* not an option: the command takes up to GG_MORE_INPUTS further arguments */
-};
-
 typedef struct gg_option {
-  unsigned flag;
+  const char *commands;        /* those that take it, separated by blanks; NULL: all */
   const char *name, *argument; /* argument: NULL if it takes none */
-  size_t at;                   /* place of its text or truth in gg_options; 0: the value is converted */
+  size_t at;                   /* place of its text or truth in gg_options; beyond: options.c converts its value */
   const char *doc;
 } gg_option;
-extern const gg_option gg_cli_options_table[]; /* ends with flag 0 */
+extern const gg_option gg_cli_options_table[]; /* ends with a NULL name */
+bool gg_cli_option_is_of(const gg_option *option, const gg_command *command);
 
 /* The command line as given, for the record and to print it with additions. */
 typedef struct gg_command_line {

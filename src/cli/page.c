@@ -9,13 +9,13 @@
 static int write_page(const gg_options *o, const gg_scene *scene)
 {
   gg_error err;
-  char *output = o->input ? gg_cli_options_output(o, ".html", &err) : strdup(o->output ? o->output : "page.html");
+  GG_CLI_FREED char *output =
+      o->input ? gg_cli_options_output(o, ".html", &err) : strdup(o->output ? o->output : "page.html");
   if (!output && o->input) return gg_cli_report(&err);
   if (!output) return gg_cli_fail(GG_FAILED, "out of memory");
   const bool replaced = gg_cli_file_exists(output) && !gg_cli_file_is_device(output);
   gg_status status = gg_page_write(o->page, scene, output, &err);
   if (status == GG_OK) gg_cli_report_written(o, "page", output, replaced);
-  free(output);
   if (status == GG_OK) return GG_OK;
   return status == GG_BAD_INPUT && o->input ? gg_cli_report_of(gg_cli_options_name(o), &err) : gg_cli_report(&err);
 }

@@ -24,12 +24,9 @@ int gg_cli_plot_main(const gg_options *o)
   bool quiet = o->quiet;
   char suffix[8];
   snprintf(suffix, sizeof suffix, ".%s", o->format ? o->format : "svg");
-  char *picture = gg_cli_options_output(o, suffix, &err);
+  GG_CLI_FREED char *picture = gg_cli_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
   gg_cli_print_notice(o->input);
-  int code = gg_plot(o->input, picture, o->format, o->width, print_file, NULL, &quiet, &err) == GG_OK
-                 ? GG_OK
-                 : gg_cli_report(&err);
-  free(picture);
-  return code;
+  const gg_status status = gg_plot(o->input, picture, o->format, o->width, print_file, NULL, &quiet, &err);
+  return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }

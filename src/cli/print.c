@@ -31,6 +31,13 @@ int gg_cli_terminal_width(void)
   return (int)(columns < LEAST ? LEAST : columns > MOST ? MOST : columns);
 }
 
+void gg_cli_freed(void *place)
+{
+  void *pointer;
+  memcpy(&pointer, place, sizeof pointer);
+  free(pointer);
+}
+
 /* Number of characters of UTF-8 text: bytes that are not continuation bytes. */
 static int columns_of(const char *text, size_t bytes)
 {
@@ -205,10 +212,9 @@ int gg_cli_report(const gg_error *err)
 
 void gg_cli_print_name(FILE *out, const char *before, const char *name, const char *after)
 {
-  char *shown = strdup(name);
+  GG_CLI_FREED char *shown = strdup(name);
   if (shown && (out != stdout || isatty(STDOUT_FILENO))) gg_text_make_printable(shown);
   fprintf(out, "%s%s%s", before, shown ? shown : "", after);
-  free(shown);
 }
 
 int gg_cli_report_of(const char *prefix, const gg_error *err)
@@ -233,6 +239,23 @@ gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...
   vsnprintf(err->message, sizeof err->message, format, args);
   va_end(args);
   return err->status = status;
+}
+
+void gg_cli_append(char *text, size_t size, const char *format, ...)
+{
+  const size_t used = strlen(text);
+  va_list args;
+  va_start(args, format);
+  vsnprintf(text + used, size - used, format, args);
+  va_end(args);
+}
+
+bool gg_cli_has_word(const char *words, const char *word)
+{
+  const size_t length = strlen(word);
+  for (const char *at = words; at && (at = strstr(at, word)); at += length)
+    if ((at == words || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0')) return true;
+  return false;
 }
 
 void gg_cli_print_notice(const char *result_file)

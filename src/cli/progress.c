@@ -8,6 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "cli/cli.h"
 #include "cli/print.h"
 
 static const double live_every = 0.1, plain_every = 20;
@@ -101,8 +102,7 @@ static void show_live(gg_cli_progress *p)
   for (int k = 0; k < GG_CLI_ENGINES; k++) {
     if (!p->last[k].engine) continue;
     describe(&p->last[k], both, part, sizeof part);
-    size_t used = strlen(line);
-    snprintf(line + used, sizeof line - used, "%s%s", used ? "  |  " : "", part);
+    gg_cli_append(line, sizeof line, "%s%s", *line ? "  |  " : "", part);
   }
   put(&p->line, line);
 }

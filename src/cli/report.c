@@ -91,14 +91,13 @@ static gg_table *tabulate(const gg_result *r, bool all)
 
 void gg_cli_print_run(const gg_result *r, const char *reported, bool all)
 {
-  gg_table *t = tabulate(r, all);
+  GG_CLI_FREED gg_table *t = tabulate(r, all);
   if (!t) return;
   gg_cli_print_head(gg_result_scene(r));
   if (t->n_rows) {
     gg_cli_table_print(t, stdout, 1);
     gg_cli_print_headline(gg_result_scene(r));
   }
-  free(t);
   gg_cli_print_curves(r, NULL, all);
   printf("\n");
   gg_cli_print_effort(r);

@@ -141,7 +141,6 @@ typedef struct verdict {
 static verdict weigh(const gg_comparison *c, int engine)
 {
   gg_comparison_row row;
-  size_t used = 0;
   verdict v = {0};
   for (size_t i = 0; gg_comparison_at(c, i, &row, NULL) == GG_OK; i++) {
     char text[ONE];
@@ -149,10 +148,7 @@ static verdict weigh(const gg_comparison *c, int engine)
     if (isnan(d->z) || !d->headline) continue;
     put_departure(row.name, d, text);
     if (!v.compared++) snprintf(v.first, sizeof v.first, "%s", text);
-    if (fabs(d->z) > far) {
-      if (used < MOST) used += (size_t)snprintf(v.list + used, MOST - used, "%s%s", v.off ? ", " : "", text);
-      v.off++;
-    }
+    if (fabs(d->z) > far) gg_cli_append(v.list, sizeof v.list, "%s%s", v.off++ ? ", " : "", text);
   }
   return v;
 }
@@ -211,8 +207,8 @@ static void print_inapplicable(const gg_comparison *c)
 {
   char list[800] = "";
   gg_theory_info t;
-  for (size_t i = 0, used = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK && used < sizeof list; i++)
-    if (t.reason) used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", t.name);
+  for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++)
+    if (t.reason) gg_cli_append(list, sizeof list, "%s%s", *list ? ", " : "", t.name);
   if (!*list) return;
   printf("\n");
   gg_cli_print_paragraph(stdout, 2, "Theories for other scenes (graingas theory says why): %s", list);
@@ -237,11 +233,10 @@ static void print_legend(const gg_comparison *c, int n_theories)
 void gg_cli_print_comparison(const gg_comparison *c, bool all)
 {
   int n_theories;
-  gg_table *t = tabulate(c, all, &n_theories);
+  GG_CLI_FREED gg_table *t = tabulate(c, all, &n_theories);
   if (!t) return;
   gg_cli_print_head(gg_comparison_scene(c));
   gg_cli_table_print(t, stdout, 1);
-  free(t);
   print_legend(c, n_theories);
   print_verdicts(c);
   print_causes(c, all);
@@ -308,11 +303,10 @@ void gg_cli_print_theories(const gg_comparison *c, bool all)
 {
   int n_theories;
   gg_theory_info theory;
-  gg_table *t = tabulate(c, all, &n_theories);
+  GG_CLI_FREED gg_table *t = tabulate(c, all, &n_theories);
   if (!t) return;
   gg_cli_print_head(gg_comparison_scene(c));
   if (n_theories) gg_cli_table_print(t, stdout, 2);
-  free(t);
   gg_cli_print_curves(NULL, c, all);
   printf("\n");
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++) {

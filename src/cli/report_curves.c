@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/cli.h"
 #include "cli/print.h"
 #include "cli/report.h"
 
@@ -142,20 +143,18 @@ static void put_numbers(gg_table *t, const sources *all, int which, bool with_mi
     }
 }
 
-static void print(gg_table *t, int keep)
+static void print(const gg_table *t, int keep)
 {
-  if (t->n_rows) {
-    printf("\n");
-    gg_cli_table_print(t, stdout, keep);
-    if (t->n_rows == GG_TABLE_ROWS) printf("... and more than fit here: see the result file or --json\n");
-  }
-  free(t);
+  if (!t->n_rows) return;
+  printf("\n");
+  gg_cli_table_print(t, stdout, keep);
+  if (t->n_rows == GG_TABLE_ROWS) printf("... and more than fit here: see the result file or --json\n");
 }
 
 static void print_numbers(const sources *all, bool with_minor)
 {
   char last[64] = "";
-  gg_table *t = gg_cli_table_new();
+  GG_CLI_FREED gg_table *t = gg_cli_table_new();
   if (!t) return;
   gg_cli_table_column(t, "read off", false);
   gg_cli_table_column(t, "", false);
@@ -210,7 +209,7 @@ static void put_agreement(const gg_curve_data *a, const source *other, char *cel
 static void print_profiles(const sources *all, bool with_parts)
 {
   gg_curve_data one, other;
-  gg_table *t = gg_cli_table_new();
+  GG_CLI_FREED gg_table *t = gg_cli_table_new();
   if (!t) return;
   gg_cli_table_column(t, "profiles", false);
   for (int a = 0; a < all->n_engines; a++)
@@ -228,9 +227,8 @@ static void print_profiles(const sources *all, bool with_parts)
         if (find_alike(&all->of[a], &one, &other))
           put_agreement(&other, &all->of[b], gg_cli_table_cell(t, row, column));
   }
-  const bool any = t->n_rows > 0;
   print(t, 1);
-  if (any)
+  if (t->n_rows)
     gg_cli_print_paragraph(stdout, 0,
                            "profiles: chi^2/points, largest difference over the largest value, its height; "
                            "theories without layers at walls, 2.5 mean free paths or 2 d");

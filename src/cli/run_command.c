@@ -115,7 +115,7 @@ int gg_cli_run_begin(gg_cli_run_options *r, const gg_options *o)
 {
   *r = (gg_cli_run_options){.options = o};
   if (gg_cli_options_scene(o, &r->scene, &r->err) != GG_OK ||
-      choose_files(r, o->command->options & GG_OPT_PICTURE) != GG_OK) {
+      choose_files(r, strcmp(o->command->name, "compare") == 0) != GG_OK) {
     clear(r);
     return gg_cli_report(&r->err);
   }
@@ -177,13 +177,11 @@ static char *command_to_resume(const gg_cli_run_options *r)
 {
   const char *given = r->options->resume;
   const bool named = given && strcmp(given, r->checkpoint) == 0;
-  char limit[64] = "", *file = gg_cli_shell_quote(r->checkpoint), *added = NULL, *again = NULL;
+  char limit[64] = "";
+  GG_CLI_FREED char *file = gg_cli_shell_quote(r->checkpoint), *added = NULL;
   if (r->out_of_time) snprintf(limit, sizeof limit, " --set run.time_limit=%g", 2 * time_limit(r));
   if (file && asprintf(&added, "%s%s%s", named ? "" : " --resume ", named ? "" : file, limit) < 0) added = NULL;
-  if (added) again = gg_cli_command_line_quote(program_invocation_name, &r->options->words, added);
-  free(file);
-  free(added);
-  return again;
+  return added ? gg_cli_command_line_quote(program_invocation_name, &r->options->words, added) : NULL;
 }
 
 typedef struct drawing {
@@ -226,9 +224,8 @@ int gg_cli_run_end(gg_cli_run_options *r)
   const int code = gg_cli_report_scene(r->options, r->status, &r->err);
   if (drawn != GG_OK) gg_cli_report(&why);
   if (r->stored && (r->status == GG_INTERRUPTED || (r->status == GG_FAILED && r->out_of_time))) {
-    char *again = command_to_resume(r);
+    GG_CLI_FREED char *again = command_to_resume(r);
     fprintf(stderr, "continue with: %s\n", again ? again : "the same command and --resume");
-    free(again);
   }
   clear(r);
   return code != GG_OK ? code : (int)drawn;

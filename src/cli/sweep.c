@@ -106,8 +106,9 @@ static int print_slurm(const gg_cli_sweep_options *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
   long h = hours(c, tasks);
-  char *command = gg_cli_command_line_quote(program_invocation_name, &c->options->words,
-                                            " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
+  GG_CLI_FREED char *command =
+      gg_cli_command_line_quote(program_invocation_name, &c->options->words,
+                                " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
   if (!command) return gg_cli_fail(GG_FAILED, "out of memory");
   printf("#!/bin/bash\n"
          "# %zu points; finished ones are skipped.\n"
@@ -121,23 +122,21 @@ static int print_slurm(const gg_cli_sweep_options *c)
          "done\n"
          "exit \"$status\"\n",
          n, tasks, h > 0 ? h : 1, n, tasks, command);
-  free(command);
   return GG_OK;
 }
 
 static void describe(const gg_sweep_progress *p, char *text, size_t size)
 {
   char left[24];
-  size_t used = (size_t)snprintf(text, size, "%zu of %zu points done, %zu running", p->done, p->points, p->running);
-  if (p->elsewhere && used < size)
-    used += (size_t)snprintf(text + used, size - used, ", %zu in other processes", p->elsewhere);
-  if (p->fell_short && used < size) used += (size_t)snprintf(text + used, size - used, ", %zu short", p->fell_short);
-  if (p->failed && used < size) used += (size_t)snprintf(text + used, size - used, ", %zu failed", p->failed);
-  if (p->relative_error > 0 && isfinite(p->relative_error) && used < size)
-    used += (size_t)snprintf(text + used, size - used, ", error up to %.2g %%", 100 * p->relative_error);
-  if (!isfinite(p->time_left) || p->done + p->failed == p->points || used >= size) return;
+  snprintf(text, size, "%zu of %zu points done, %zu running", p->done, p->points, p->running);
+  if (p->elsewhere) gg_cli_append(text, size, ", %zu in other processes", p->elsewhere);
+  if (p->fell_short) gg_cli_append(text, size, ", %zu short", p->fell_short);
+  if (p->failed) gg_cli_append(text, size, ", %zu failed", p->failed);
+  if (p->relative_error > 0 && isfinite(p->relative_error))
+    gg_cli_append(text, size, ", error up to %.2g %%", 100 * p->relative_error);
+  if (!isfinite(p->time_left) || p->done + p->failed == p->points) return;
   gg_cli_format_duration(p->time_left, left, sizeof left);
-  snprintf(text + used, size - used, ", %s left", left);
+  gg_cli_append(text, size, ", %s left", left);
 }
 
 /* Show progress: a live line on a terminal, otherwise plain lines at intervals. */
@@ -260,13 +259,12 @@ int gg_cli_sweep_collect(gg_cli_sweep_options *c, const char *picture)
                                       .progress = show_progress,
                                       .stop = gg_cli_interrupted,
                                       .warn = gg_cli_sweep_warn};
-  char *prefix = tables_of(c->folder);
+  GG_CLI_FREED char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
   gg_cli_catch_interrupts();
   gg_cli_line_start(&c->line, o->quiet);
   gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, gg_cli_sweep_print_file, c, &err);
   gg_cli_line_clear(&c->line);
-  free(prefix);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 

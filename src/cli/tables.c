@@ -92,21 +92,22 @@ json_t *gg_cli_support(void)
   return all;
 }
 
-static json_t *commands_with(unsigned option)
+static json_t *commands_with(const gg_option *o)
 {
   json_t *names = json_array();
   for (const gg_command *c = gg_cli_commands; c->name; c++)
-    if (c->options & option) json_array_append_new(names, json_string(c->name));
+    if (gg_cli_option_is_of(o, c)) json_array_append_new(names, json_string(c->name));
   return names;
 }
 
-static json_t *options_of(unsigned taken)
+/* The options of a command; NULL: all. */
+static json_t *options_of(const gg_command *c)
 {
   json_t *all = json_array();
-  for (const gg_option *o = gg_cli_options_table; o->flag; o++)
-    if (taken & o->flag)
+  for (const gg_option *o = gg_cli_options_table; o->name; o++)
+    if (!c || gg_cli_option_is_of(o, c))
       json_array_append_new(all, json_pack("{s:s, s:s?, s:s, s:o}", "name", o->name, "argument", o->argument, "doc",
-                                           o->doc, "commands", commands_with(o->flag)));
+                                           o->doc, "commands", commands_with(o)));
   return all;
 }
 
@@ -115,14 +116,14 @@ static json_t *commands(void)
   json_t *all = json_array();
   for (const gg_command *c = gg_cli_commands; c->name; c++)
     json_array_append_new(all, json_pack("{s:s, s:s, s:s, s:s?, s:o}", "name", c->name, "arguments", c->arguments,
-                                         "summary", c->summary, "help", c->help, "options", options_of(c->options)));
+                                         "summary", c->summary, "help", c->help, "options", options_of(c)));
   return all;
 }
 
 void gg_cli_print_tables(void)
 {
   json_t *all = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "version", gg_version(),
-                          "commands", commands(), "options", options_of(~0u), "keys", entries(GG_CATALOGUE_KEYS, NULL),
+                          "commands", commands(), "options", options_of(NULL), "keys", entries(GG_CATALOGUE_KEYS, NULL),
                           "species_keys", entries(GG_CATALOGUE_SPECIES_KEYS, NULL), "quantities",
                           entries_in(GG_CATALOGUE_QUANTITIES, "{flow: usf, phi: 0.1}"), "quantities_without_shear",
                           entries_in(GG_CATALOGUE_QUANTITIES, "{flow: hss, phi: 0.1}"), "theories",

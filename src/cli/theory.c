@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/print.h"
 #include "cli/report.h"
 #include "cli/run_command.h"
 
@@ -33,19 +34,14 @@ int gg_cli_theory_main(const gg_options *o)
   return gg_cli_report_scene(o, status, &err);
 }
 
-/* Names of the engines and theories of a result; NULL: out of memory. */
-static char *methods_of(const gg_comparison *c)
+/* Names of the engines and theories of a result. */
+static void list_methods(const gg_comparison *c, char *text, size_t size)
 {
-  char *text = NULL;
-  size_t size = 0;
   gg_theory_info t;
-  FILE *out = open_memstream(&text, &size);
-  if (!out) return NULL;
-  for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, k ? "dsmc" : "md")) fprintf(out, "%s ", k ? "dsmc" : "md");
+  for (int k = 0; k < GG_CLI_ENGINES; k++)
+    if (gg_comparison_result(c, gg_cli_engines[k])) gg_cli_append(text, size, "%s ", gg_cli_engines[k]);
   for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK; i++)
-    if (!t.reason) fprintf(out, "%s ", t.name);
-  return fclose(out) == 0 ? text : (free(text), NULL);
+    if (!t.reason) gg_cli_append(text, size, "%s ", t.name);
 }
 
 static int print_references(const char *words, bool is_word)
@@ -63,12 +59,11 @@ int gg_cli_cite_main(const gg_options *o)
 {
   gg_error err;
   gg_comparison *c;
+  char words[4000] = "";
   const char *dot = o->input ? strrchr(o->input, '.') : NULL;
   if (!dot) return print_references(o->input ? o->input : "", o->input != NULL);
   if (gg_comparison_read(o->input, &c, &err) != GG_OK) return gg_cli_report(&err);
-  char *words = methods_of(c);
+  list_methods(c, words, sizeof words);
   gg_comparison_free(c);
-  const int code = words ? print_references(words, false) : gg_cli_fail(GG_FAILED, "out of memory");
-  free(words);
-  return code;
+  return print_references(words, false);
 }

@@ -34,7 +34,8 @@ static char *command_to_repeat(const gg_options *o)
 static int judge(gg_cli_sweep_options *c)
 {
   gg_error err;
-  char *verdict = NULL, *maps = gg_cli_path_with_suffix(c->folder, ".svg"), *repeat = command_to_repeat(c->options);
+  char *verdict = NULL;
+  GG_CLI_FREED char *maps = gg_cli_path_with_suffix(c->folder, ".svg"), *repeat = command_to_repeat(c->options);
   const gg_options *o = c->options;
   const bool drawn = !o->point && !(o->picture && strcmp(o->picture, "none") == 0);
   const gg_validate_options options = {.size = sizeof options,
@@ -54,8 +55,6 @@ static int judge(gg_cli_sweep_options *c)
     if (!o->quiet && !o->point && !o->json) printf("\n");
     gg_cli_print_text(verdict);
   }
-  free(maps);
-  free(repeat);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 

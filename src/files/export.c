@@ -345,26 +345,22 @@ static gg_status check_prefix(const char *prefix, gg_error *err)
   struct stat about;
   const bool in_dev = strncmp(prefix, "/dev/", 5) == 0 || strncmp(prefix, "/proc/", 6) == 0; /* /dev/stdout > file */
   if (stat(prefix, &about) != 0 || (!in_dev && S_ISREG(about.st_mode)) || S_ISDIR(about.st_mode)) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "%s: is a device or a pipe; tables and trajectories are files, whose names the prefix begins",
-                      prefix);
+  return GG_REFUSE(err, "%s: is a device or a pipe; tables and trajectories are files, whose names the prefix begins",
+                   prefix);
 }
 
 /* Check what is there already: one file for each output. */
 static gg_status look_at(job *j, size_t i, gg_error *err)
 {
-  gg_output_path place;
+  GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
   target *t = &j->target[i];
   GG_TRY(gg_io_output_path_find(&place, t->path, err));
   if (place.there) t->device = place.about.st_dev, t->inode = place.about.st_ino, t->filled = place.about.st_size > 0;
-  bool stream = place.stream;
-  gg_io_output_path_clear(&place);
-  if (stream)
+  if (place.stream)
     return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; tables and trajectories are files", t->path);
   for (const target *k = j->target; t->inode && k < t; k++)
     if (k->inode == t->inode && k->device == t->device)
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: would be the same file as %s; choose another prefix", t->path,
-                          k->path);
+      return GG_REFUSE(err, "%s: would be the same file as %s; choose another prefix", t->path, k->path);
   return GG_OK;
 }
 
@@ -373,8 +369,7 @@ static gg_status open_target(job *j, size_t i, const char *path, gg_error *err)
 {
   target *t = &j->target[i];
   if (gg_io_path_is_same_file(t->path, path))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: would be both the result and what is exported from it; choose another prefix", t->path);
+    return GG_REFUSE(err, "%s: would be both the result and what is exported from it; choose another prefix", t->path);
   GG_TRY(look_at(j, i, err));
   return gg_io_atomic_open(&t->file, t->path, false, err);
 }
@@ -382,15 +377,12 @@ static gg_status open_target(job *j, size_t i, const char *path, gg_error *err)
 /* One line of a file, from 0, to be freed; NULL where it has not so many, or cannot be read. */
 static char *read_line(const char *path, int line)
 {
-  FILE *in = path ? fopen(path, "r") : NULL;
+  GG_CLOSED FILE *in = path ? fopen(path, "r") : NULL;
   char *text = NULL;
   size_t room = 0;
   bool there = in != NULL;
   for (int k = 0; k <= line && there; k++) there = getline(&text, &room, in) > 0;
-  if (in) fclose(in);
-  if (there) return text;
-  free(text);
-  return NULL;
+  return there ? text : (free(text), NULL);
 }
 
 /* An existing file may be replaced if it is an earlier export: its head is that of the new one; a trajectory is
@@ -398,11 +390,8 @@ static char *read_line(const char *path, int line)
 static bool is_export(const target *t)
 {
   const int line = t->content == TRAJECTORY;
-  char *there = read_line(t->path, line), *now = read_line(t->file.temporary, line);
-  const bool ours = there && now && (line ? strncmp(there, "Lattice=", 8) == 0 : strcmp(there, now) == 0);
-  free(there);
-  free(now);
-  return ours;
+  GG_FREED char *there = read_line(t->path, line), *now = read_line(t->file.temporary, line);
+  return there && now && (line ? strncmp(there, "Lattice=", 8) == 0 : strcmp(there, now) == 0);
 }
 
 static gg_status check_replaced(const job *j, gg_error *err)

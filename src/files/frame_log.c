@@ -80,14 +80,14 @@ gg_status gg_files_frame_log_open(gg_frame_log *log, const char *path, gg_error 
 
 gg_status gg_files_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err)
 {
-  char *fresh = gg_files_frame_log_new_path(path), *place = strdup(path);
+  GG_FREED char *fresh = gg_files_frame_log_new_path(path);
+  char *place = strdup(path);
   bool made = fresh && place && open_file(log, fresh, O_RDWR | O_CREAT | O_EXCL) == GG_OK;
   gg_status status = made ? GG_OK : gg_io_path_write_error(path, strerror(errno), err);
   if (!fresh || !place) *log = (gg_frame_log){.fd = -1};
   log->place = place;
   log->created = made;
   if (!made) gg_files_frame_log_close(log);
-  free(fresh);
   return status;
 }
 
@@ -150,18 +150,14 @@ gg_status gg_files_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg
   record header = {.n = frame->n, .holds = holds, .step = frame->step, .time = frame->time, .tilt = frame->tilt};
   header.bytes = size_of(frame->n, holds);
   memcpy(header.word, word, sizeof word);
-  size_t *order = gg_measure_frame_order(frame, err);
-  record *r = order ? gg_base_array_new(header.bytes, 1, err) : NULL;
-  gg_status status = GG_FAILED;
-  if (r) {
-    *r = header;
-    fill(r, frame, order, log->mark.checksum);
-    status = write_at(log, r, r->bytes, log->mark.bytes, err);
-  }
-  if (status == GG_OK) log->mark = (gg_frame_mark){log->mark.frames + 1, log->mark.bytes + r->bytes, r->checksum};
-  free(r);
-  free(order);
-  return status;
+  GG_FREED size_t *order = gg_measure_frame_order(frame, err);
+  GG_FREED record *r = order ? gg_base_array_new(header.bytes, 1, err) : NULL;
+  if (!r) return GG_FAILED;
+  *r = header;
+  fill(r, frame, order, log->mark.checksum);
+  GG_TRY(write_at(log, r, r->bytes, log->mark.bytes, err));
+  log->mark = (gg_frame_mark){log->mark.frames + 1, log->mark.bytes + r->bytes, r->checksum};
+  return GG_OK;
 }
 
 gg_status gg_files_frame_log_sync(const gg_frame_log *log, gg_error *err)
@@ -260,17 +256,15 @@ bool gg_files_frame_log_is_at(const gg_frame_log *log, const char *path)
 static gg_status copy_bytes(gg_frame_log *log, const gg_frame_log *from, gg_error *err)
 {
   enum { PIECE = 1 << 20 };
-  gg_status status = GG_OK;
-  char *piece = gg_base_array_new(PIECE, 1, err);
+  GG_FREED char *piece = gg_base_array_new(PIECE, 1, err);
   if (!piece) return GG_FAILED;
-  for (uint64_t at = 0; at < from->mark.bytes && status == GG_OK; at += PIECE) {
+  for (uint64_t at = 0; at < from->mark.bytes; at += PIECE) {
     uint64_t left = from->mark.bytes - at;
     size_t size = left < PIECE ? (size_t)left : PIECE;
-    status = read_at(from, piece, size, at) ? write_at(log, piece, size, at, err)
-                                            : gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read", from->path);
+    if (!read_at(from, piece, size, at)) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read", from->path);
+    GG_TRY(write_at(log, piece, size, at, err));
   }
-  free(piece);
-  return status;
+  return GG_OK;
 }
 
 gg_status gg_files_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err)

@@ -72,7 +72,7 @@ static gg_status read_xyz(const char *path, size_t n, bool mixture, gg_positions
 {
   char line[4096] = "";
   size_t there = 0, i = 0;
-  FILE *in = fopen(path, "r");
+  GG_CLOSED FILE *in = fopen(path, "r");
   if (!in) return gg_base_fail(err, GG_BAD_FILE, "cannot be read: %s", strerror(errno));
   bool good = fgets(line, sizeof line, in) && sscanf(line, "%zu", &there) == 1 && fgets(line, sizeof line, in);
   const int species = column_of(line, "species", 0), position = column_of(line, "pos", 1);
@@ -83,10 +83,8 @@ static gg_status read_xyz(const char *path, size_t n, bool mixture, gg_positions
   for (int k = 0; at && k < 9; k++) edges[k] = strtod(at, &at);
   for (; good && i < n && i < there; i++)
     good = fgets(line, sizeof line, in) && read_row(line, species, position, to, i);
-  fclose(in);
-  if (!good) return gg_base_fail(err, GG_BAD_INPUT, "line %zu is not one of extended XYZ", i ? i + 2 : 1);
-  if (mixture && species < 0)
-    return gg_base_fail(err, GG_BAD_INPUT, "Properties has no species, and the scene several");
+  if (!good) return GG_REFUSE(err, "line %zu is not one of extended XYZ", i ? i + 2 : 1);
+  if (mixture && species < 0) return GG_REFUSE(err, "Properties has no species, and the scene several");
   to->n = there;
   return GG_OK;
 }
@@ -94,19 +92,17 @@ static gg_status read_xyz(const char *path, size_t n, bool mixture, gg_positions
 /* The last frame of a trajectory; a result's unit of length is that of its model. */
 static gg_status read_h5md(const char *path, size_t n, gg_positions *to, double edges[9], gg_error *err)
 {
-  gg_stored_trajectory t;
-  gg_frame frame = {0};
-  gg_status status = gg_files_stored_trajectory_open(&t, path, err);
-  if (status == GG_OK && !t.n_frames) status = gg_base_fail(err, GG_BAD_FILE, GG_NO_POSITIONS);
-  if (status == GG_OK) status = gg_files_stored_trajectory_frame(&t, t.n_frames - 1, &frame, edges, err);
+  GG_CLEARED(gg_files_stored_trajectory_close) gg_stored_trajectory t = {0};
+  GG_CLEARED(gg_measure_frame_free) gg_frame frame = {0};
+  GG_TRY(gg_files_stored_trajectory_open(&t, path, err));
+  if (!t.n_frames) return gg_base_fail(err, GG_BAD_FILE, GG_NO_POSITIONS);
+  GG_TRY(gg_files_stored_trajectory_frame(&t, t.n_frames - 1, &frame, edges, err));
   to->n = t.n;
-  for (size_t i = 0; status == GG_OK && i < n && i < t.n; i++) {
+  for (size_t i = 0; i < n && i < t.n; i++) {
     memcpy(to->r + 3 * i, frame.position + 3 * i, 3 * sizeof *to->r);
     to->species[i] = t.species[i];
   }
-  gg_measure_frame_free(&frame);
-  gg_files_stored_trajectory_close(&t);
-  return status;
+  return GG_OK;
 }
 
 gg_status gg_files_positions_read(const gg_scene *scene, const gg_model *model, gg_positions *to, gg_error *err)

@@ -418,10 +418,9 @@ static bool is_allowed(const char *key, const char *name)
 static bool make_text_printable(json_t *value)
 {
   if (gg_base_text_is_printable(json_string_value(value))) return true;
-  char *copy = strdup(json_string_value(value));
+  GG_FREED char *copy = strdup(json_string_value(value));
   if (copy) gg_base_text_make_printable(copy);
   const bool good = copy && json_string_set(value, copy) == 0;
-  free(copy);
   if (!good) gg_base_memory_lacked();
   return good;
 }

@@ -16,6 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "io/output_path.h"
 
 /* "process 4711 on kepler, since 2026-11-22 08:46:42" */
@@ -254,12 +255,11 @@ static bool put_in_place(gg_atomic_file *f)
  * writer does not remove, if it can be renamed. */
 static gg_status keep(gg_atomic_file *f, int number, gg_error *err)
 {
-  char *name = NULL;
+  GG_FREED char *name = NULL;
   if (asprintf(&name, "%s" GG_KEPT_SUFFIX, f->place.target) < 0) name = NULL;
   const bool named = name && rename(f->temporary, name) == 0;
   gg_status status = gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: %s; what was written is kept in %s",
                                   f->path, strerror(number), named ? name : f->temporary);
-  free(name);
   free(f->temporary);
   f->temporary = NULL;
   return status;
@@ -293,11 +293,9 @@ void gg_io_atomic_abandon(gg_atomic_file *f)
 gg_status gg_io_atomic_check_writable(const char *path, const char *why_regular, gg_error *err)
 {
   gg_atomic_file file;
-  gg_output_path place;
+  GG_CLEARED(gg_io_output_path_clear) gg_output_path place = {0};
   GG_TRY(gg_io_output_path_find(&place, path, err));
-  bool stream = place.stream;
-  gg_io_output_path_clear(&place);
-  if (stream) return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
+  if (place.stream) return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
   GG_TRY(gg_io_atomic_open(&file, path, false, err));
   gg_io_atomic_abandon(&file);
   return GG_OK;

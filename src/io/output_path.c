@@ -24,9 +24,8 @@ gg_status gg_io_path_write_error(const char *path, const char *why, gg_error *er
 
 static char *folder_of(const char *path)
 {
-  char *copy = strdup(path), *folder = copy ? strdup(dirname(copy)) : NULL;
-  free(copy);
-  return folder;
+  GG_FREED char *copy = strdup(path);
+  return copy ? strdup(dirname(copy)) : NULL;
 }
 
 /* One link: from where it stands to where it leads; to be freed. */
@@ -37,10 +36,8 @@ static char *follow_one(const char *link)
   if (length < 0) return NULL;
   to[length] = '\0';
   if (to[0] == '/') return strdup(to);
-  char *folder = folder_of(link);
-  if (folder && asprintf(&at, "%s/%s", folder, to) < 0) at = NULL;
-  free(folder);
-  return at;
+  GG_FREED char *folder = folder_of(link);
+  return folder && asprintf(&at, "%s/%s", folder, to) >= 0 ? at : NULL;
 }
 
 char *gg_io_path_follow_links(const char *path)
@@ -75,11 +72,9 @@ static bool is_standard(const struct stat *about)
 static bool is_pinned(const char *target, const struct stat *about)
 {
   struct stat folder;
-  char *path = folder_of(target);
-  bool pinned = path && stat(path, &folder) == 0 && folder.st_mode & S_ISVTX && geteuid() != 0 &&
-                geteuid() != about->st_uid && geteuid() != folder.st_uid;
-  free(path);
-  return pinned;
+  GG_FREED char *path = folder_of(target);
+  return path && stat(path, &folder) == 0 && folder.st_mode & S_ISVTX && geteuid() != 0 && geteuid() != about->st_uid &&
+         geteuid() != folder.st_uid;
 }
 
 /* Require write permission although the file is replaced, not written to: a user has removed it for a reason. This
@@ -126,7 +121,7 @@ static gg_status look(gg_output_path *place, const char *path, bool *something, 
 gg_status gg_io_output_path_find(gg_output_path *place, const char *path, gg_error *err)
 {
   *place = (gg_output_path){0};
-  if (!*path) return gg_base_fail(err, GG_BAD_INPUT, "a file to write has an empty name");
+  if (!*path) return GG_REFUSE(err, "a file to write has an empty name");
   bool something = true, named = false;
   gg_status status = GG_OK;
   for (int i = 0; i < MOST_LOOKS && status == GG_OK && something && !named; i++) {

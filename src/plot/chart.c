@@ -309,8 +309,7 @@ static gg_status draw(const gg_chart *c, layout *l, const gg_plot_paper *paper, 
 
 gg_status gg_plot_chart_finish(gg_chart *c, const gg_plot_paper *paper, const char *picture, gg_error *err)
 {
-  gg_status status = GG_OK;
-  layout *l = calloc(1, sizeof *l);
+  GG_FREED layout *l = calloc(1, sizeof *l);
   bool whole = l != NULL;
   for (size_t i = 0; i < c->n && whole; i++) {
     gg_plot_axes_choose(c->panel[i]);
@@ -319,11 +318,10 @@ gg_status gg_plot_chart_finish(gg_chart *c, const gg_plot_paper *paper, const ch
     if (whole) l->panel[i].n = gg_plot_looks_choose(c, c->panel[i], l->panel[i].entry, MOST_ENTRIES);
   }
   if (whole) l->n = gg_plot_looks_choose(c, NULL, l->entry, MOST_ENTRIES);
-  status = !whole  ? gg_base_out_of_memory(err)
-           : !c->n ? gg_base_fail(err, GG_BAD_INPUT, "%s: there is nothing to draw", picture)
-                   : draw(c, l, paper, picture, err);
+  gg_status status = !whole  ? gg_base_out_of_memory(err)
+                     : !c->n ? GG_REFUSE(err, "%s: there is nothing to draw", picture)
+                             : draw(c, l, paper, picture, err);
   for (size_t i = 0; l && i < c->n; i++) free(l->panel[i].entry);
-  free(l);
   gg_plot_chart_free(c);
   return status;
 }

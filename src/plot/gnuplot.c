@@ -129,20 +129,13 @@ static gg_status outcome(pid_t child, FILE *complaints, gg_error *err)
 static gg_status draw(const char *script, int target, gg_error *err)
 {
   pid_t child;
-  FILE *in = tmpfile(), *complaints = tmpfile();
-  gg_status result = GG_OK;
-  if (!in || !complaints) {
-    result = gg_base_fail(err, GG_BAD_FILE, "no temporary file can be made: %s", strerror(errno));
-  } else {
-    bool whole = fprintf(in, "%s\nunset output\n", script) > 0 && fflush(in) == 0;
-    if (!whole) result = gg_base_fail(err, GG_BAD_FILE, "a temporary file cannot be written: %s", strerror(errno));
-    rewind(in);
-    if (result == GG_OK) result = spawn(fileno(in), target, fileno(complaints), &child, err);
-    if (result == GG_OK) result = outcome(child, complaints, err);
-  }
-  if (in) fclose(in);
-  if (complaints) fclose(complaints);
-  return result;
+  GG_CLOSED FILE *in = tmpfile(), *complaints = tmpfile();
+  if (!in || !complaints) return gg_base_fail(err, GG_BAD_FILE, "no temporary file can be made: %s", strerror(errno));
+  if (fprintf(in, "%s\nunset output\n", script) <= 0 || fflush(in) != 0)
+    return gg_base_fail(err, GG_BAD_FILE, "a temporary file cannot be written: %s", strerror(errno));
+  rewind(in);
+  GG_TRY(spawn(fileno(in), target, fileno(complaints), &child, err));
+  return outcome(child, complaints, err);
 }
 
 /* Position of the mark that ends a whole picture; -1: not whole. gnuplot does not notice a full disk. */

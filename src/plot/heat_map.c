@@ -12,8 +12,8 @@
 enum { CELL_WIDE = 42, CELL_TALL = 22, LEAST_WIDE = 34, LEAST_TALL = 140 };
 enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 42, BELOW = 134, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
 
-static const char caption[] = "lines at 1 % (dashed), 5 % and 20 % (thick); hatched: below two standard errors; "
-                              "red: × not steady, ▲ clustered or swirling, ◆ collapsed";
+static const char caption[] = "lines at 1 % (dashed), 5 % and 20 % (thick); hatched: below two standard errors; red: × "
+                              "not steady, ▲ clustered or swirling, ◆ collapsed";
 
 #define SMALLEST 0.005
 #define LARGEST 1.0
@@ -162,13 +162,11 @@ static void draw_panel(const heat_page *p, size_t row, size_t column)
   print_hatches(p, cell);
   print_marks(p, cell);
   print_lines(p, cell, "lines1", 0.01), print_lines(p, cell, "lines5", 0.05), print_lines(p, cell, "lines20", 0.2);
-  fprintf(s, "plot $cells using 1:2:(0.5):(0.5):3 with boxxyerror lc rgb variable fs solid noborder, "
-             "$hatches using 1:2:3:4 with vectors nohead lc rgb '#888888' lw 0.7, "
-             "$lines1 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 0.8 dt (3,2), "
-             "$lines5 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 1.3, "
-             "$lines20 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 2.8, "
-             "$marks using 1:2:3 with points pt variable ps 0.95 lw 3 lc rgb '#ffffff', "
-             "$marks using 1:2:3 with points pt variable ps 0.6 lw 1.2 lc rgb '#d00000'\n");
+  fprintf(s, "plot $cells using 1:2:(0.5):(0.5):3 with boxxyerror lc rgb variable fs solid noborder, $hatches using "
+             "1:2:3:4 with vectors nohead lc rgb '#888888' lw 0.7, $lines1 using 1:2:3:4 with vectors nohead lc rgb "
+             "'#000000' lw 0.8 dt (3,2), $lines5 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 1.3, $lines20 "
+             "using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 2.8, $marks using 1:2:3 with points pt variable ps "
+             "0.95 lw 3 lc rgb '#ffffff', $marks using 1:2:3 with points pt variable ps 0.6 lw 1.2 lc rgb '#d00000'\n");
 }
 
 /* The scale of colours, and the meaning of lines, hatches and marks. */

@@ -109,11 +109,27 @@ void gg_plot_page_panel(const gg_page *p, gg_box f, bool four_sides)
           four_sides ? "unset grid" : "set grid ytics lc rgb '#e4e4e4' lt 1 lw 0.8");
 }
 
+/* The inside of a text in single quotes. A newline would end the text, and what comes next be a command. A single quote
+ * cannot be escaped in all places. SVG loses a space behind an index, except for a no-break space. */
+static void print_text(FILE *s, const char *text)
+{
+  bool index = false;
+  for (const char *c = text; *c; c++) {
+    index |= *c == '_' || *c == '^';
+    if (*c == '\'')
+      fputs("’", s);
+    else if (*c == ' ' && index)
+      fputs("\u00a0", s), index = false;
+    else
+      fputc((unsigned char)*c >= ' ' ? *c : ' ', s);
+  }
+}
+
 void gg_plot_page_text(const gg_page *p, double x, double y, const char *style, const char *text)
 {
   if (!text || !*text) return;
   fprintf(p->script, "set label '");
-  gg_plot_text_print(p->script, text);
+  print_text(p->script, text);
   fprintf(p->script, "' at screen %.6g,%.6g front %s\n", x / p->size[0], 1 - y / p->size[1], style);
 }
 
@@ -214,22 +230,6 @@ void gg_plot_scene_title(const gg_stored_result *stored, char *title, size_t siz
   *title = '\0';
   if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) == GG_OK)
     gg_files_scene_title(&scene, NULL, title, size);
-}
-
-/* A newline would end the text, and what comes next be a command. A single quote cannot be escaped in all places. SVG
- * loses a space behind an index, except for a no-break space. */
-void gg_plot_text_print(FILE *s, const char *text)
-{
-  bool index = false;
-  for (const char *c = text; *c; c++) {
-    index |= *c == '_' || *c == '^';
-    if (*c == '\'')
-      fputs("’", s);
-    else if (*c == ' ' && index)
-      fputs("\u00a0", s), index = false;
-    else
-      fputc((unsigned char)*c >= ' ' ? *c : ' ', s);
-  }
 }
 
 void gg_plot_text_escape(const char *plain, char *text, size_t size)

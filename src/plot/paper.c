@@ -21,15 +21,14 @@ static gg_status choose_format(gg_plot_paper *paper, const char *picture, const 
 {
   const char *slash = strrchr(picture, '/'), *name = slash ? slash + 1 : picture, *dot = strrchr(name, '.');
   const char *ending = dot && dot > name ? dot + 1 : NULL;
-  if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': a picture needs a name, .svg, .png, .pdf or .gp", picture);
+  if (!*name) return GG_REFUSE(err, "'%s': a picture needs a name, .svg, .png, .pdf or .gp", picture);
   if (format && find(format) == N_FORMATS)
-    return gg_base_fail(err, GG_BAD_INPUT, "pictures are svg, png, pdf or gp, not '%.20s'", format);
-  if (!ending && !format)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture's name ends with .svg, .png, .pdf or .gp", picture);
+    return GG_REFUSE(err, "pictures are svg, png, pdf or gp, not '%.20s'", format);
+  if (!ending && !format) return GG_REFUSE(err, "%s: a picture's name ends with .svg, .png, .pdf or .gp", picture);
   if (ending && find(ending) == N_FORMATS)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: pictures are .svg, .png, .pdf or .gp, not .%.20s", picture, ending);
+    return GG_REFUSE(err, "%s: pictures are .svg, .png, .pdf or .gp, not .%.20s", picture, ending);
   if (ending && format && strcmp(ending, format) != 0)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: is to be %s, and its name says %s", picture, format, ending);
+    return GG_REFUSE(err, "%s: is to be %s, and its name says %s", picture, format, ending);
   paper->format = (gg_plot_format)find(ending ? ending : format);
   return GG_OK;
 }
@@ -47,10 +46,8 @@ static gg_status choose_width(gg_plot_paper *paper, const char *width, gg_error 
   for (size_t i = 0; i < sizeof units / sizeof *units; i++)
     if (end > width && strcmp(end, units[i].name) == 0) points = number * units[i].points;
   if (!(points >= least * 0.999 && points <= most * 1.001))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "'%.40s' is no width of a picture: a number with mm, cm, in or pt, from 40mm to 1000mm, e.g. "
-                        "86mm",
-                        width);
+    return GG_REFUSE(
+        err, "'%.40s' is no width of a picture: a number with mm, cm, in or pt, from 40mm to 1000mm, e.g. 86mm", width);
   paper->width = points * 12 / 8;
   return GG_OK;
 }

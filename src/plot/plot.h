@@ -56,8 +56,6 @@ char *gg_plot_page_name(const char *picture, const char *engine, const char *gro
 /* The title of the scene; empty if the scene cannot be read. */
 void gg_plot_scene_title(const gg_stored_result *stored, char *title, size_t size);
 
-/* Print the inside of a text in single quotes. */
-void gg_plot_text_print(FILE *script, const char *text);
 /* Copy a plain text with its marks escaped, so that gnuplot, which reads enhanced text, shows it as it is. */
 void gg_plot_text_escape(const char *plain, char *text, size_t size);
 /* A unit as enhanced text: "d^2 gamma^2" becomes "d^2 γ^2", with a space that SVG keeps. */

@@ -108,8 +108,7 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const gg
 static gg_status check_page(const char *path, const char *picture, const char *file, gg_error *err)
 {
   if (gg_io_path_is_same_file(path, file))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture", path, picture);
+    return GG_REFUSE(err, "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture", path, picture);
   return gg_io_atomic_check_writable(path, GG_PICTURES_ARE, err);
 }
 
@@ -131,7 +130,7 @@ gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper
   page_list pages;
   gg_status status = list(&pages, stored, paper, picture, err);
   if (status != GG_OK) clear(&pages);
-  json_t *theories = NULL;
+  json_auto_t *theories = NULL;
   /* If a page fails, the others are still drawn; the first failure is reported. */
   for (int i = 0; i < pages.n; i++) {
     const page *p = &pages.page[i];
@@ -144,7 +143,6 @@ gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper
     if (done == GG_OK && drawn) drawn(context, p->path);
     if (status == GG_OK) status = done;
   }
-  json_decref(theories);
   clear(&pages);
   return status;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "run/replicas.h"
 #include "run/series_means.h"
 #include "run/workers/workers.h"
@@ -15,7 +16,7 @@
 
 gg_status gg_run_replicas_store(gg_replicas *all, gg_error *err)
 {
-  gg_archive archive = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   if (!all->callbacks || !all->callbacks->checkpoint) return GG_OK;
   gg_status status = gg_run_replicas_save(all, &archive, err);
   if (status == GG_OK) status = all->callbacks->checkpoint(all->callbacks->context, &archive, err);

@@ -58,7 +58,7 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
   *trend = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
   size_t n = gg_series_window_rows(&all->replica[0].series);
   if (k < 0 || n < 24) return GG_OK;
-  double *y = gg_base_array_new(n * (size_t)all->n, sizeof *y, err);
+  GG_FREED double *y = gg_base_array_new(n * (size_t)all->n, sizeof *y, err);
   if (!y) return GG_FAILED;
   for (int r = 0; r < all->n; r++) {
     const gg_replica *p = &all->replica[r];
@@ -66,9 +66,7 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
       y[(size_t)r * n + i] =
           gg_function_value(f, gg_series_row(&p->series, p->series.window + i) + p->sampler.offset[k], &all->model);
   }
-  gg_status status = gg_statistics_trend_test(y, n, (size_t)all->n, trend, err);
-  free(y);
-  return status;
+  return gg_statistics_trend_test(y, n, (size_t)all->n, trend, err);
 }
 
 /* Largest part of a requested error that the square of an odd mode may make in a short window. */

@@ -110,13 +110,11 @@ gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, 
 
 double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md)
 {
-  double ratio = 0;
-  gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
-  if (m && gg_scene_model_make(scene, GG_DSMC, m, NULL) == GG_OK &&
-      gg_common_engine_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measured(scene, m) == scene->measure)
-    ratio = gg_common_engine_of(GG_MD)->nanoseconds(md) / gg_common_engine_of(GG_DSMC)->nanoseconds(m);
-  free(m);
-  return ratio;
+  GG_FREED gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
+  if (!m || gg_scene_model_make(scene, GG_DSMC, m, NULL) != GG_OK ||
+      gg_common_engine_of(GG_DSMC)->accepts(m, NULL) != GG_OK || measured(scene, m) != scene->measure)
+    return 0;
+  return gg_common_engine_of(GG_MD)->nanoseconds(md) / gg_common_engine_of(GG_DSMC)->nanoseconds(m);
 }
 
 /* "1.2 GB" */
@@ -136,11 +134,11 @@ gg_status gg_run_cost_check_memory(const gg_cost_estimate *f, const char *engine
   put_bytes(f->bytes, needed);
   put_bytes(available, there);
   put_bytes(f->engine + f->observables + f->series, one);
-  return gg_base_fail(
-      err, GG_FAILED,
-      "%s: the run would need about %s of memory (%s a replica, of which there are %lld), and there are %s; "
-      "ask for fewer %s, replicas or observables",
-      engine, needed, one, (long long)replicas, there, strcmp(engine, "dsmc") == 0 ? "dsmc.particles" : "particles");
+  return gg_base_fail(err, GG_FAILED,
+                      "%s: the run would need about %s of memory (%s a replica, of which there are %lld), and there "
+                      "are %s; ask for fewer %s, replicas or observables",
+                      engine, needed, one, (long long)replicas, there,
+                      strcmp(engine, "dsmc") == 0 ? "dsmc.particles" : "particles");
 }
 
 /* "3 s", "12 min", "4 h", "20 days" */

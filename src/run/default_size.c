@@ -62,11 +62,10 @@ void gg_run_default_size_reason(const gg_scene *s, char *text, size_t size)
   if (stable >= least_size(s))
     snprintf(text, size, "automatic: the box stays homogeneous, as it does up to about %.0f grains", stable);
   else
-    snprintf(
-        text, size,
-        "automatic, the smallest: vortices and clusters grow beyond about %.0f grains, and boxes below %.0f are too "
-        "narrow",
-        stable, least_size(s));
+    snprintf(text, size,
+             "automatic, the smallest: vortices and clusters grow beyond about %.0f grains, and boxes below %.0f are "
+             "too narrow",
+             stable, least_size(s));
 }
 
 void gg_run_scene_fill_in(gg_scene *s)

@@ -19,13 +19,12 @@ static gg_status each_requested(const gg_scene *scene, const gg_model *model, vi
 {
   const gg_engine_kind engine = model->ensemble ? GG_DSMC : GG_MD; /* that of the scene may be another */
   const bool changes = gg_scene_protocol_count(scene, INFINITY) > 0;
-  gg_model *end = changes ? gg_base_array_new(1, sizeof *end, err) : NULL;
+  GG_FREED gg_model *end = changes ? gg_base_array_new(1, sizeof *end, err) : NULL;
   if (changes && !end) return GG_FAILED;
-  gg_status status = changes ? gg_run_protocol_end_model(scene, engine, end, err) : GG_OK;
-  for (int i = 0; gg_measure_observables[i] && status == GG_OK; i++)
+  if (changes) GG_TRY(gg_run_protocol_end_model(scene, engine, end, err));
+  for (int i = 0; gg_measure_observables[i]; i++)
     if (scene->measure & gg_measure_observables[i]->flag) visit(context, gg_measure_observables[i], end ? end : model);
-  free(end);
-  return status;
+  return GG_OK;
 }
 
 static void add_flag(void *flags, const gg_observable *o, const gg_model *gas)
@@ -64,8 +63,7 @@ gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene,
   unsigned flags;
   if ((gg_measure_user_observables(&r->model) || scene->measure & ~GG_MEASURE_RHEOLOGY) &&
       !(scene->measure & GG_MEASURE_RHEOLOGY))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "measure: add rheology: by it a run knows when the gas is steady and the run is done");
+    return GG_REFUSE(err, "measure: add rheology: by it a run knows when the gas is steady and the run is done");
   GG_TRY(gg_run_measured(scene, &r->model, &flags, err));
   GG_TRY(gg_measure_sampler_init(&r->sampler, &r->model, flags, err));
   return gg_statistics_series_init(&r->series, r->sampler.width, err);

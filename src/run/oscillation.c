@@ -65,8 +65,8 @@ gg_status gg_run_oscillation_curves(const gg_replicas *all, const gg_relaxing *t
   if (r->series.n <= steps * periods || s.of_kinetic < 0 || *scene->protocol[0].key ||
       !gg_measure_sampler_find_history(&r->sampler, GG_Q_TEMPERATURE, &s.T))
     return GG_OK; /* cut short, or not of one gas */
-  double *room = gg_base_array_new(steps * (3 * n + 4), sizeof *room, err);
-  gg_cycle *of = gg_base_array_new(n + 1, sizeof *of, err);
+  GG_FREED double *room = gg_base_array_new(steps * (3 * n + 4), sizeof *room, err);
+  GG_FREED gg_cycle *of = gg_base_array_new(n + 1, sizeof *of, err);
   const gg_oscillation o = {&all->model,
                             theory ? gg_theory_relaxation_name(&all->model) : NULL,
                             steps,
@@ -75,16 +75,11 @@ gg_status gg_run_oscillation_curves(const gg_replicas *all, const gg_relaxing *t
                             room,
                             n,
                             of};
-  gg_status status = room && of ? GG_OK : GG_FAILED;
-  if (status == GG_OK) {
-    for (size_t i = 0; i < 3 * (n + 1); i += 3)
-      of[i / 3] = (gg_cycle){room + (i + 1) * steps, room + (i + 2) * steps, room + (i + 3) * steps};
-    read_strain(&o, first, scene);
-    for (size_t i = 0; i < n; i++) read_replica(&o, first, &r[i], &s, &of[i]);
-    if (theory) read_theory(&o, first, theory, &of[n]);
-    status = gg_measure_harmonics(&o, list, err);
-  }
-  free(of);
-  free(room);
-  return status;
+  if (!room || !of) return GG_FAILED;
+  for (size_t i = 0; i < 3 * (n + 1); i += 3)
+    of[i / 3] = (gg_cycle){room + (i + 1) * steps, room + (i + 2) * steps, room + (i + 3) * steps};
+  read_strain(&o, first, scene);
+  for (size_t i = 0; i < n; i++) read_replica(&o, first, &r[i], &s, &of[i]);
+  if (theory) read_theory(&o, first, theory, &of[n]);
+  return gg_measure_harmonics(&o, list, err);
 }

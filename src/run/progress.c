@@ -135,7 +135,6 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
       .limit_in = limit > 0 ? fmax(limit - used, 0) : INFINITY,
       .replicas = all->n,
   };
-  pthread_mutex_lock(&all->lock); /* tasks may just now call the callback that stops the run */
+  GG_LOCKED(&all->lock); /* tasks may just now call the callback that stops the run */
   all->callbacks->progress(all->callbacks->context, &p);
-  pthread_mutex_unlock(&all->lock);
 }

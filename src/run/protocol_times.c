@@ -73,8 +73,8 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
   GG_TRY(gg_common_engine_of(scene->engine)->accepts(changed, err));
   return gg_common_is_same_gas(model, changed)
              ? GG_OK
-             : gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at %g: this value of %s needs other grains or units",
-                            scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
+             : GG_REFUSE(err, "key 'protocol': at %g: this value of %s needs other grains or units",
+                         scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
 }
 
 int gg_run_protocol_changes(const gg_scene *scene, uint64_t k)
@@ -104,12 +104,10 @@ gg_status gg_run_protocol_end_model(const gg_scene *scene, gg_engine_kind engine
 
 gg_status gg_run_protocol_check(const gg_scene *scene, const gg_model *model, gg_error *err)
 {
-  gg_model *changed = gg_base_array_new(1, sizeof *changed, err);
-  gg_status status = changed ? GG_OK : GG_FAILED;
-  for (int n = 1; status == GG_OK && n <= gg_scene_protocol_count(scene, INFINITY); n++)
-    status = make_model(scene, model, n, changed, err);
-  free(changed);
-  return status;
+  GG_FREED gg_model *changed = gg_base_array_new(1, sizeof *changed, err);
+  if (!changed) return GG_FAILED;
+  for (int n = 1; n <= gg_scene_protocol_count(scene, INFINITY); n++) GG_TRY(make_model(scene, model, n, changed, err));
+  return GG_OK;
 }
 
 /* Estimate of the temperature that the gas tends to; `last` where it tends to none. */
@@ -132,7 +130,7 @@ double gg_run_protocol_collisions(const gg_scene *scene, const gg_model *model)
   x.stride = 1.5;
   double sum = 0, T = x.T;
   int made = 0;
-  gg_model *now = malloc(sizeof *now);
+  GG_FREED gg_model *now = malloc(sizeof *now);
   if (now) *now = *model;
   for (uint64_t k = 0; now && k < n; k++) {
     const double dt = gg_run_protocol_time(scene, k + 1) - gg_run_protocol_time(scene, k);
@@ -152,6 +150,5 @@ double gg_run_protocol_collisions(const gg_scene *scene, const gg_model *model)
     T = !isnan(x.T) ? x.T : begins ? steady_temperature(&then, now, T) : T;
     sum += isnan(x.T) ? dt * gg_common_model_collision_rate(now, T) : x.collisions - before;
   }
-  free(now);
   return sum;
 }

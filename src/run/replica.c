@@ -189,12 +189,10 @@ static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg
   r->clock.next_frame = next_frame(r);
   if (r->frames_of_window && !r->clock.window_collisions) return GG_OK; /* no window was opened yet */
   if (!callbacks || !callbacks->frame) return GG_OK;
-  gg_frame frame;
+  GG_CLEARED(gg_measure_frame_free) gg_frame frame = {0};
   GG_TRY(gg_measure_frame_take(r->engine, &r->model, r->images, &frame, err));
   gg_run_replica_date_frame(r, &frame);
-  gg_status status = callbacks->frame(callbacks->context, &frame, err);
-  gg_measure_frame_free(&frame);
-  return status;
+  return callbacks->frame(callbacks->context, &frame, err);
 }
 
 /* Temperature in the engine's units, from the last row: rows hold log T in units of the start; in linear response,
@@ -234,11 +232,10 @@ static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint6
   bool runaway = !(per_grain < 1000 * elapsed * gg_common_model_collision_rate(&r->model, r->clock.temperature));
   if (runaway || r->clock.cut_short >= MOST_CUT_SHORT) return gg_run_replica_collapsed(r, err);
   if (adapt) return GG_OK;
-  return gg_base_fail(
-      err, GG_FAILED,
-      "%s: collisions come a thousand times faster near time %g than when averaging began: the gas still "
-      "heats up; give run.warmup a larger value",
-      r->engine->ops->name, r->clock.time);
+  return gg_base_fail(err, GG_FAILED,
+                      "%s: collisions come a thousand times faster near time %g than when averaging began: the gas "
+                      "still heats up; give run.warmup a larger value",
+                      r->engine->ops->name, r->clock.time);
 }
 
 /* Set the interval of a transient run to end at the next sampling time, in the engine's units; rounding may have left
@@ -268,14 +265,12 @@ static gg_status change_if_due(gg_replica *r, gg_error *err)
   if (!gg_scene_is_followed(&r->scene)) return GG_OK;
   const int changes = gg_run_protocol_changes(&r->scene, r->clock.samples);
   if (changes == r->clock.changes) return GG_OK;
-  gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  GG_FREED gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
-  gg_status status = gg_run_protocol_model(&r->scene, &r->model, changes, model, err);
+  GG_TRY(gg_run_protocol_model(&r->scene, &r->model, changes, model, err));
   if (gg_scene_shear_steps(&r->scene) > 0) model->shear_rate = r->model.shear_rate;
-  if (status == GG_OK) status = change(r, model, err);
-  if (status == GG_OK) r->clock.changes = changes;
-  free(model);
-  return status;
+  GG_TRY(change(r, model, err));
+  return r->clock.changes = changes, GG_OK;
 }
 
 /* The next step of a shear rate that is a formula of time. */
@@ -375,11 +370,10 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
 
 static gg_status restore_changes(gg_replica *r, int changes, gg_error *err)
 {
-  gg_model *model = gg_base_array_new(1, sizeof *model, err);
-  gg_status status = model ? gg_run_protocol_model(&r->scene, &r->model, changes, model, err) : GG_FAILED;
-  if (status == GG_OK) r->model = *model;
-  free(model);
-  return status;
+  GG_FREED gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  if (!model) return GG_FAILED;
+  GG_TRY(gg_run_protocol_model(&r->scene, &r->model, changes, model, err));
+  return r->model = *model, GG_OK;
 }
 
 /* Apply the changes of the protocol, and the shear rate, that the saved engine had. */

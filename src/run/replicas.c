@@ -26,13 +26,11 @@ gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *
   GG_TRY(gg_scene_resumption_put(&all->scene, a, err));
   GG_TRY(gg_base_archive_put(a, "campaign/state", GG_ITEM_U8, &state, sizeof state, err));
   for (int i = 0; i < all->n; i++) {
-    gg_archive one = {0};
+    GG_CLEARED(gg_base_archive_clear) gg_archive one = {0};
     char prefix[24];
     snprintf(prefix, sizeof prefix, "replica%d", i);
-    gg_status status = gg_run_replica_save(&all->replica[i], &one, err);
-    if (status == GG_OK) status = gg_base_archive_nest(a, prefix, &one, err);
-    gg_base_archive_clear(&one);
-    if (status != GG_OK) return status;
+    GG_TRY(gg_run_replica_save(&all->replica[i], &one, err));
+    GG_TRY(gg_base_archive_nest(a, prefix, &one, err));
   }
   return GG_OK;
 }
@@ -40,9 +38,9 @@ gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *
 static gg_status check_kind(const gg_archive *a, gg_error *err)
 {
   if (gg_base_archive_find(a, "md/campaign/state") || gg_base_archive_find(a, "dsmc/campaign/state"))
-    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is one of a comparison: only a comparison can resume it");
+    return GG_REFUSE(err, "the checkpoint is one of a comparison: only a comparison can resume it");
   if (gg_base_archive_find(a, "simulation/scene"))
-    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is a saved simulation, not one of a run");
+    return GG_REFUSE(err, "the checkpoint is a saved simulation, not one of a run");
   return GG_OK;
 }
 
@@ -52,13 +50,11 @@ static gg_status restore(gg_replicas *all, const gg_archive *a, gg_error *err)
   GG_TRY(gg_scene_resumption_check(&all->scene, a, err));
   GG_TRY(gg_base_archive_get(a, "campaign/state", GG_ITEM_U8, &all->state, sizeof all->state, err));
   for (int i = 0; i < all->n; i++) {
-    gg_archive one = {0};
+    GG_CLEARED(gg_base_archive_clear) gg_archive one = {0};
     char prefix[24];
     snprintf(prefix, sizeof prefix, "replica%d", i);
-    gg_status status = gg_base_archive_unnest(&one, prefix, a, err);
-    if (status == GG_OK) status = gg_run_replica_restore(&all->replica[i], &one, &all->scene, &all->model, i, err);
-    gg_base_archive_clear(&one);
-    if (status != GG_OK) return status;
+    GG_TRY(gg_base_archive_unnest(&one, prefix, a, err));
+    GG_TRY(gg_run_replica_restore(&all->replica[i], &one, &all->scene, &all->model, i, err));
   }
   return GG_OK;
 }
@@ -92,10 +88,8 @@ gg_status gg_run_how_far(const gg_archive *a, gg_checkpoint_part *part, gg_error
 static bool is_interrupted(gg_replicas *all)
 {
   if (!all->callbacks || !all->callbacks->interrupted) return false;
-  pthread_mutex_lock(&all->lock);
-  bool yes = all->callbacks->interrupted(all->callbacks->context);
-  pthread_mutex_unlock(&all->lock);
-  return yes;
+  GG_LOCKED(&all->lock);
+  return all->callbacks->interrupted(all->callbacks->context);
 }
 
 /* Report progress during dense starts, which take seconds. Any thread that polls is_stopped does it, since the
@@ -137,19 +131,15 @@ static bool is_stopped(void *context)
 static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *err)
 {
   gg_replicas *all = context;
-  pthread_mutex_lock(&all->lock);
-  gg_status status = all->callbacks->frame(all->callbacks->context, frame, err);
-  pthread_mutex_unlock(&all->lock);
-  return status;
+  GG_LOCKED(&all->lock);
+  return all->callbacks->frame(all->callbacks->context, frame, err);
 }
 
 static gg_status locked_sample(void *context, const gg_replica *replica, gg_error *err)
 {
   gg_replicas *all = context;
-  pthread_mutex_lock(&all->lock);
-  gg_status status = all->callbacks->sample(all->callbacks->context, replica, err);
-  pthread_mutex_unlock(&all->lock);
-  return status;
+  GG_LOCKED(&all->lock);
+  return all->callbacks->sample(all->callbacks->context, replica, err);
 }
 
 /* Replicas come first; threads that are left over go to their engines, in equal parts. */
@@ -225,9 +215,7 @@ static gg_status check_until(const gg_replicas *all, gg_error *err)
     if (!(all->scene.run.until[q] > 0)) continue;
     const char *why = gg_common_quantity_missing(&all->model, q);
     if (!why && !(all->scene.measure & GG_MEASURE_RHEOLOGY)) why = "measure has no rheology";
-    if (why)
-      return gg_base_fail(err, GG_BAD_INPUT, "run.until: %s has no mean in this scene: %s", gg_common_quantity_name(q),
-                          why);
+    if (why) return GG_REFUSE(err, "run.until: %s has no mean in this scene: %s", gg_common_quantity_name(q), why);
   }
   return GG_OK;
 }

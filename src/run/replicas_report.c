@@ -196,11 +196,10 @@ static void warn_if_structured(gg_result *result)
     const gg_estimate *e = &result->value[q];
     if (q == GG_Q_N2 && gg_common_model_is_turned(&result->model)) continue; /* z is a direction of its own */
     if (!(fabs(e->mean) > 0.02 && fabs(e->mean) > 5 * e->error)) continue;
-    gg_run_result_warn(
-        result,
-        "the gas is not homogeneous: %s = %.3g +- %.2g where it should vanish (vortices or clusters; a smaller "
-        "box or shorter run stays homogeneous)",
-        gg_common_quantity_name(q), e->mean, e->error);
+    gg_run_result_warn(result,
+                       "the gas is not homogeneous: %s = %.3g +- %.2g where it should vanish (vortices or clusters; a "
+                       "smaller box or shorter run stays homogeneous)",
+                       gg_common_quantity_name(q), e->mean, e->error);
     return;
   }
 }
@@ -213,11 +212,10 @@ static void warn_if_narrow(gg_result *result)
   const gg_model *m = &result->model;
   double narrowest = fmin(m->box[0], fmin(m->box[1], m->box[2])), widest = gg_common_model_widest(m);
   if (m->ensemble || narrowest >= NARROW_BOX * widest) return;
-  gg_run_result_warn(
-      result,
-      "the box is %.3g diameters wide: its grains meet the same few again and again, and means are those of "
-      "so small a box; give particles a larger value",
-      narrowest / widest);
+  gg_run_result_warn(result,
+                     "the box is %.3g diameters wide: its grains meet the same few again and again, and means are "
+                     "those of so small a box; give particles a larger value",
+                     narrowest / widest);
 }
 
 /* If every contact slides, the force along a wall is mu times the force across it, whatever the gas does: a flow that
@@ -230,13 +228,13 @@ static void warn_if_walls_slip(gg_result *result)
   const double mu = m->n_surfaces ? m->surface[0].contact[0].mu : INFINITY,
                ratio = result->value[GG_Q_WALL_FRICTION].mean;
   if (!m->walled || !(mu > 0 && isfinite(mu)) || !(ratio > ALL_SLIDE * mu)) return;
-  gg_run_result_warn(result,
-                     "%s: friction is at its limit in nearly all contacts (force along over force across %.3g, "
-                     "walls.mu %.3g)%s",
-                     m->n_surfaces > 1 ? "both walls slip" : "the wall slips", ratio, mu,
-                     result->steadiness == GG_STEADY
-                         ? ""
-                         : "; a flow that loses more energy than walls bring in so dies: give walls.mu a larger value");
+  gg_run_result_warn(
+      result,
+      "%s: friction is at its limit in nearly all contacts (force along over force across %.3g, walls.mu %.3g)%s",
+      m->n_surfaces > 1 ? "both walls slip" : "the wall slips", ratio, mu,
+      result->steadiness == GG_STEADY
+          ? ""
+          : "; a flow that loses more energy than walls bring in so dies: give walls.mu a larger value");
 }
 
 /* Noise of mean densities and dense layers at walls exceed the limit in a smaller fraction. */
@@ -250,12 +248,11 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
   else if (all->model.law.e)
     gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
   if (s->clamped)
-    gg_run_result_warn(
-        result,
-        "%s '%s' has no allowed value at the speeds of %llu collisions (%.2g %%), which took the nearest "
-        "allowed one (NaN: the least)",
-        all->model.law.e ? GG_OWN_LAW : "the formula", all->model.law.name, (unsigned long long)s->clamped,
-        100 * (double)s->clamped / (double)s->collisions);
+    gg_run_result_warn(result,
+                       "%s '%s' has no allowed value at the speeds of %llu collisions (%.2g %%), which took the "
+                       "nearest allowed one (NaN: the least)",
+                       all->model.law.e ? GG_OWN_LAW : "the formula", all->model.law.name,
+                       (unsigned long long)s->clamped, 100 * (double)s->clamped / (double)s->collisions);
   if (!gg_run_is_steady(result->steadiness) && !gg_scene_is_followed(&all->scene))
     gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (gg_run_is_steady(result->steadiness) && !c->trusted)
@@ -322,11 +319,10 @@ static void warn_of_one_side(const gg_slow_modes *w, gg_result *result)
   if (!(w->aside_share > ASIDE_SHARE && fabs(w->aside) > ASIDE_OF_GAP * result->model.box[1])) return;
   for (int i = 0; i < result->curves.n; i++) {
     if (!result->curves.curve[i].folded) continue;
-    gg_run_result_warn(
-        result,
-        "profiles are means of the flow and its mirror image, but the flow kept to one side: the centre of "
-        "mass was %.2g d from the middle of the gap on average, %.2g d at root mean square",
-        w->aside, fabs(w->aside) / sqrt(w->aside_share));
+    gg_run_result_warn(result,
+                       "profiles are means of the flow and its mirror image, but the flow kept to one side: the centre "
+                       "of mass was %.2g d from the middle of the gap on average, %.2g d at root mean square",
+                       w->aside, fabs(w->aside) / sqrt(w->aside_share));
     return;
   }
 }
@@ -335,7 +331,7 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
 {
   const gg_replica *first = &all->replica[0];
   const gg_observable *o = first->sampler.observable[k];
-  const gg_bins **bins = gg_base_array_new((size_t)all->n, sizeof *bins, err);
+  GG_FREED const gg_bins **bins = gg_base_array_new((size_t)all->n, sizeof *bins, err);
   if (!bins) return GG_FAILED;
   for (int r = 0; r < all->n; r++) bins[r] = &all->replica[r].sampler.bins[k];
   int before = result->curves.n;
@@ -346,7 +342,6 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
     gg_run_result_warn(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
                        (size_t)all->n * bins[0]->blocks, GG_MIN_BLOCKS);
   warn_of_short_blocks(result, before, o->name);
-  free(bins);
   return status;
 }
 

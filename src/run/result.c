@@ -68,6 +68,11 @@ void gg_run_result_label(gg_result *r)
       gg_run_quantity_counts_in_collisions(&r->model) ? "collisions a grain" : gg_measure_curve_unit(&r->model, "time");
 }
 
+void gg_run_result_freed(gg_result **result)
+{
+  gg_run_result_free(*result);
+}
+
 void gg_run_result_free(gg_result *result)
 {
   if (!result) return;

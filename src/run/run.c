@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "graingas.h"
 #include "run/protocol_times.h"
@@ -29,20 +30,15 @@ static bool has_other_numerics(const gg_scene *s)
 /* Make a result of the present state of the replicas; it may fall short of the requested errors. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
 {
-  gg_result *result = gg_base_array_new(1, sizeof *result, err);
+  GG_CLEARED(gg_run_result_freed) gg_result *result = gg_base_array_new(1, sizeof *result, err);
   if (!result) return GG_FAILED;
   gg_run_replicas_level(all);
-  gg_status status = gg_run_replicas_report(all, result, err);
-  if (status != GG_OK) { /* out of memory: half a result is none */
-    gg_run_result_free(result);
-    return status;
-  }
-  *out = result;
+  GG_TRY(gg_run_replicas_report(all, result, err)); /* out of memory: half a result is none */
+  GG_HAND_OVER(out, result);
   if (has_other_numerics(&all->scene))
-    gg_run_result_warn(result,
-                       "continued to another relative error: the ensemble and the time step are those chosen for "
-                       "%.3g %%",
-                       100 * gg_scene_ensemble_size_error(&all->scene));
+    gg_run_result_warn(
+        *out, "continued to another relative error: the ensemble and the time step are those chosen for %.3g %%",
+        100 * gg_scene_ensemble_size_error(&all->scene));
   return gg_run_replicas_check_end(all, err);
 }
 
@@ -135,14 +131,13 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
 
 gg_status gg_run_compare_theories(const gg_model *model, const bool *wanted, gg_comparison *c, gg_error *err)
 {
-  gg_model *start = gg_base_array_new(1, sizeof *start, err);
+  GG_FREED gg_model *start = gg_base_array_new(1, sizeof *start, err);
   if (!start) return GG_FAILED;
   c->model = *start = *model;
   gg_run_rows_make(&c->model, &c->rows);
   c->n_theories = 0;
   gg_status status = compare_theories(model, wanted, start, c, err);
   c->model.stop = NULL; /* it ends with the call */
-  free(start);
   return status;
 }
 
@@ -170,42 +165,36 @@ static void locked_progress(void *context, const gg_progress *progress)
   part *p = context;
   gg_progress now = *progress;
   now.next = p->next;
-  pthread_mutex_lock(p->lock);
+  GG_LOCKED(p->lock);
   p->fraction[p->kind] = fmax(p->fraction[p->kind], now.fraction);
   now.overall = 0;
   for (int k = 0; k < GG_N_ENGINES; k++) now.overall += p->fraction[k] / GG_N_ENGINES;
   p->callbacks->progress(p->callbacks->context, &now);
-  pthread_mutex_unlock(p->lock);
 }
 
 static bool locked_interrupted(void *context)
 {
   part *p = context;
-  pthread_mutex_lock(p->lock);
-  bool yes = *p->broken || (p->callbacks->interrupted && p->callbacks->interrupted(p->callbacks->context));
-  pthread_mutex_unlock(p->lock);
-  return yes;
+  GG_LOCKED(p->lock);
+  return *p->broken || (p->callbacks->interrupted && p->callbacks->interrupted(p->callbacks->context));
 }
 
 /* A comparison's checkpoint is both engines' latest ones. */
 static gg_status store_both(part *p, const gg_archive *archive, gg_error *err)
 {
-  gg_archive both = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive both = {0};
   gg_base_archive_clear(&p->latest[p->kind]);
-  gg_status status = gg_base_archive_nest(&p->latest[p->kind], gg_common_engine_of(p->kind)->name, archive, err);
-  for (int k = 0; k < GG_N_ENGINES && status == GG_OK; k++) status = gg_base_archive_append(&both, &p->latest[k], err);
-  if (status == GG_OK) status = p->callbacks->checkpoint(p->callbacks->context, &both, err);
-  gg_base_archive_clear(&both);
-  return status;
+  GG_TRY(gg_base_archive_nest(&p->latest[p->kind], gg_common_engine_of(p->kind)->name, archive, err));
+  for (int k = 0; k < GG_N_ENGINES; k++) GG_TRY(gg_base_archive_append(&both, &p->latest[k], err));
+  return p->callbacks->checkpoint(p->callbacks->context, &both, err);
 }
 
 static gg_status locked_checkpoint(void *context, gg_archive *archive, gg_error *err)
 {
   part *p = context;
-  pthread_mutex_lock(p->lock);
+  GG_LOCKED(p->lock);
   gg_status status = store_both(p, archive, err);
   *p->broken |= status != GG_OK;
-  pthread_mutex_unlock(p->lock);
   return status;
 }
 
@@ -221,9 +210,8 @@ static void run_part(part *p)
   p->scene.engine = p->kind;
   p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &callbacks,
                            &p->comparison->by_engine[p->kind], &p->err);
-  pthread_mutex_lock(p->lock);
+  GG_LOCKED(p->lock);
   p->fraction[p->kind] = 1; /* also of one that cannot run the scene */
-  pthread_mutex_unlock(p->lock);
 }
 
 /* Keep the reason if the engine cannot run the scene: the comparison goes without it. Other failures end it. */
@@ -283,7 +271,7 @@ static gg_status refuse_all(const gg_comparison *c, gg_error *err)
     same &= strcmp(c->refusal[k], c->refusal[0]) == 0;
     snprintf(text + at, sizeof text - at, "%s%s: %s", k ? "; " : "", gg_common_engine_of(k)->name, c->refusal[k]);
   }
-  return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", same ? c->refusal[0] : text);
+  return GG_REFUSE(err, "no engine can run this scene: %s", same ? c->refusal[0] : text);
 }
 
 static gg_status close_parts(part parts[GG_N_ENGINES], gg_comparison *c, gg_error *err)
@@ -311,15 +299,13 @@ static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg
 static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *start, const gg_stop *stop,
                                          gg_comparison *c, gg_error *err)
 {
-  gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  GG_FREED gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
   *model = *start;
   const bool changes = *scene->protocol[0].key || gg_scene_shear_steps(scene) > 0;
-  gg_status status = changes ? gg_run_protocol_end_model(scene, GG_MD, model, err) : GG_OK;
+  if (changes) GG_TRY(gg_run_protocol_end_model(scene, GG_MD, model, err));
   model->stop = stop;
-  if (status == GG_OK) status = gg_run_compare_theories(model, NULL, c, err);
-  free(model);
-  return status;
+  return gg_run_compare_theories(model, NULL, c, err);
 }
 
 static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
@@ -353,7 +339,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
     if (resume && status == GG_OK) status = gg_base_archive_nest(&latest[k], name, &parts[k].resume, err);
   }
   if (status == GG_OK && resume && !parts[0].resume.n_items && !parts[1].resume.n_items)
-    status = gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
+    status = GG_REFUSE(err, "the checkpoint is not one of a comparison");
   if (status == GG_OK) status = run_parts(parts, beside, threads, err);
   if (status == GG_OK) status = close_parts(parts, c, err);
   for (int k = 0; k < GG_N_ENGINES; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);
@@ -364,15 +350,12 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
 gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
                                const gg_run_callbacks *callbacks, gg_comparison *c, gg_error *err)
 {
-  gg_model *model = gg_base_array_new(GG_N_ENGINES, sizeof *model, err);
+  GG_FREED gg_model *model = gg_base_array_new(GG_N_ENGINES, sizeof *model, err);
   memset(c, 0, sizeof *c);
   c->scene = gg_scene_copy_new(scene, err);
-  gg_status status = GG_FAILED;
-  if (model && c->scene) {
-    status = compare_scene(scene, resume, threads, callbacks, model, c, err);
-    gg_run_causes_find(c, &c->causes);
-  }
-  free(model);
+  if (!model || !c->scene) return GG_FAILED;
+  const gg_status status = compare_scene(scene, resume, threads, callbacks, model, c, err);
+  gg_run_causes_find(c, &c->causes);
   return status;
 }
 

@@ -188,22 +188,20 @@ void gg_run_scheduler_free(gg_run_scheduler *s)
 void gg_run_scheduler_enter(gg_run_scheduler *s)
 {
   if (!s) return;
-  pthread_mutex_lock(&s->lock);
+  GG_LOCKED(&s->lock);
   s->entering++;
   while (s->busy >= s->threads) pthread_cond_wait(&s->entry, &s->lock);
   s->entering--;
   s->busy++;
   wake(s);
-  pthread_mutex_unlock(&s->lock);
 }
 
 void gg_run_scheduler_leave(gg_run_scheduler *s)
 {
   if (!s) return;
-  pthread_mutex_lock(&s->lock);
+  GG_LOCKED(&s->lock);
   s->busy--;
   wake(s);
-  pthread_mutex_unlock(&s->lock);
 }
 
 static void *run_controller(void *controller)
@@ -253,12 +251,11 @@ void gg_run_tasks_close(gg_run_tasks *run)
 void gg_run_task_queue(gg_run_task *t)
 {
   gg_run_scheduler *s = t->run->scheduler;
-  pthread_mutex_lock(&s->lock);
+  GG_LOCKED(&s->lock);
   gg_run_task **at = &s->queue; /* after all of the same priority */
   while (*at && (*at)->priority >= t->priority) at = &(*at)->next;
   t->next = *at, *at = t;
   if (s->distributed) wake(s);
-  pthread_mutex_unlock(&s->lock);
 }
 
 static void begin(gg_run_task *t)
@@ -300,10 +297,8 @@ void gg_run_stop(gg_run_tasks *run)
 
 void gg_run_task_finish(gg_run_task *t)
 {
-  gg_run_scheduler *s = t->run->scheduler;
-  pthread_mutex_lock(&s->lock);
-  finish(s, t);
-  pthread_mutex_unlock(&s->lock);
+  GG_LOCKED(&t->run->scheduler->lock);
+  finish(t->run->scheduler, t);
 }
 
 /* Wait for all tasks of the run, and do some of them. The controller gives up its processor until the last task passes
@@ -343,13 +338,8 @@ static bool collect_and_wait(gg_run_scheduler *s, gg_run_tasks *run)
 
 bool gg_run_wait(gg_run_tasks *run)
 {
-  bool over = true;
   gg_run_scheduler *s = run->scheduler;
-  pthread_mutex_lock(&s->lock);
-  if (s->distributed)
-    over = collect_and_wait(s, run);
-  else
-    work_and_wait(s, run);
-  pthread_mutex_unlock(&s->lock);
-  return over;
+  GG_LOCKED(&s->lock);
+  if (s->distributed) return collect_and_wait(s, run);
+  return work_and_wait(s, run), true;
 }

@@ -39,12 +39,11 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
                         engine, criteria->relative_error);
   const bool cut = out_of_time(all) || (criteria->most && window >= criteria->most);
   if (cut && (window < criteria->least || !c->trusted))
-    return gg_base_fail(
-        err, GG_FAILED,
-        "%s: %s after %.0f collisions a grain of averaging, too few to know whether the requested relative error %g is "
-        "reached",
-        engine, out_of_time(all) ? "time limit reached" : "run.collisions ended the run", collisions_a_grain(all, true),
-        criteria->relative_error);
+    return gg_base_fail(err, GG_FAILED,
+                        "%s: %s after %.0f collisions a grain of averaging, too few to know whether the requested "
+                        "relative error %g is reached",
+                        engine, out_of_time(all) ? "time limit reached" : "run.collisions ended the run",
+                        collisions_a_grain(all, true), criteria->relative_error);
   if (c->relative_error <= criteria->relative_error) return GG_OK;
   const char *why = out_of_time(all) ? "time limit reached; " : "";
   if (isnan(c->relative_error))
@@ -74,11 +73,10 @@ gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err)
 {
   const char *engine = all->replica[0].engine->ops->name;
   if (all->state.arrest_share > 0)
-    return gg_base_fail(
-        err, GG_FAILED,
-        "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
-        "last, and fall under the contact-time rule; hard spheres need a flow",
-        engine, 100 * all->state.arrest_share);
+    return gg_base_fail(err, GG_FAILED,
+                        "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts "
+                        "that last, and fall under the contact-time rule; hard spheres need a flow",
+                        engine, 100 * all->state.arrest_share);
   if (all->state.runaway > 0)
     return gg_base_fail(err, GG_FAILED,
                         "%s: stopped, as theta/T has come to %.1g: grains that spin fast have escaped friction, and "
@@ -86,9 +84,8 @@ gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err)
                         engine, all->state.runaway);
   gg_status status = check_goal(all, engine, err);
   if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->criteria.time_limit)) return status;
-  return gg_base_fail(
-      err, GG_FAILED,
-      "%s: the time limit of %g s was over before: it counts from the run's first start; to continue, set a larger "
-      "run.time_limit",
-      engine, all->criteria.time_limit);
+  return gg_base_fail(err, GG_FAILED,
+                      "%s: the time limit of %g s was over before: it counts from the run's first start; to continue, "
+                      "set a larger run.time_limit",
+                      engine, all->criteria.time_limit);
 }

@@ -49,8 +49,8 @@ static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k
   const bool one = is_of_one_row(first->sampler.observable[k], f);
   const size_t channels = one ? 1 : first->sampler.observable[k]->rows->width(&first->model);
   gg_mean m = {.mean = NAN, .error = NAN, .correlation_rows = NAN};
-  double *value = gg_base_array_new(n + 2 * channels, sizeof *value, NULL);
-  const double **of = gg_base_array_new(n, sizeof *of, NULL);
+  GG_FREED double *value = gg_base_array_new(n + 2 * channels, sizeof *value, NULL);
+  GG_FREED const double **of = gg_base_array_new(n, sizeof *of, NULL);
   for (size_t i = 0; value && of && i < n; i++) {
     const gg_replica *r = &all->replica[i];
     of[i] = gg_series_row(&r->series, row) + r->sampler.offset[k];
@@ -61,8 +61,6 @@ static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k
                                          value + n);
   const double factor = factor_of(all, &first->model, q, row);
   m.mean *= factor, m.error *= factor;
-  free(of);
-  free(value);
   return m;
 }
 
@@ -90,8 +88,9 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
   x.stop = stop.asked && !interrupted ? &stop : NULL;
   int changes = 0;
   gg_status status = GG_OK;
-  gg_model *model = gg_base_array_new(2, sizeof *model, err), *start = model + 1;
+  GG_FREED gg_model *model = gg_base_array_new(2, sizeof *model, err);
   if (!model) return GG_FAILED;
+  gg_model *start = model + 1;
   *start = all->model;
   start->stop = stop.asked ? &stop : NULL;
   for (size_t k = 0; status == GG_OK && k < all->replica[0].series.n; k++) {
@@ -111,7 +110,6 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
     else if (status == GG_OK && !gg_theory_relaxation_name(model))
       x = gg_theory_relaxation_lost();
   }
-  free(model);
   return status;
 }
 
@@ -174,7 +172,7 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
 {
   gg_curves *list = &result->curves;
   const bool known = gg_theory_relaxation_name(&all->model) != NULL;
-  gg_relaxing *theory = gg_base_array_new(all->replica[0].series.n + 1, sizeof *theory, err);
+  GG_FREED gg_relaxing *theory = gg_base_array_new(all->replica[0].series.n + 1, sizeof *theory, err);
   if (!theory) return GG_FAILED;
   const size_t changed = last_change(all);
   if (gg_flow_is_sheared(all->scene.flow) && (gg_scene_shear_steps(&all->scene) > 0 || all->scene.shear.rate <= 0))
@@ -197,7 +195,6 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
   list->group = NULL;
   if (status == GG_OK && all->scene.shear.period != GG_AUTO && gg_scene_shear_steps(&all->scene) > 0)
     status = gg_run_oscillation_curves(all, known ? theory : NULL, list, err);
-  free(theory);
   GG_TRY(status);
   return list->failed ? gg_base_out_of_memory_for(err, "the curves in time") : GG_OK;
 }

@@ -102,13 +102,13 @@ static gg_status check_thermostat(const gg_scene *s, gg_error *err)
   if (gg_flow_takes(s->flow, s->thermostat)) return GG_OK;
   if (s->thermostat != GG_NO_THERMOSTAT) {
     gg_common_flows_taking(s->thermostat, text, sizeof text);
-    return gg_base_fail(err, GG_BAD_INPUT, "thermostat: %s does not go with flow: %s; use flow: %s",
-                        gg_common_thermostats[s->thermostat].word, flow, text);
+    return GG_REFUSE(err, "thermostat: %s does not go with flow: %s; use flow: %s",
+                     gg_common_thermostats[s->thermostat].word, flow, text);
   }
   for (int t = GG_NO_THERMOSTAT + 1; t < GG_N_THERMOSTATS; t++)
     if (gg_flow_takes(s->flow, (gg_thermostat)t))
       gg_base_text_append(text, sizeof text, "%s%s", *text ? " or " : "", gg_common_thermostats[t].word);
-  return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a thermostat: %s", flow, text);
+  return GG_REFUSE(err, "flow: %s needs a thermostat: %s", flow, text);
 }
 
 /* Kicks and torques give energy: no gas cools freely with them, nor conserves energy, nor responds at a temperature of
@@ -122,18 +122,15 @@ static gg_status check_injection(const gg_scene *s, gg_error *err)
                                             : "key 'collision.e': above 1 at some speed";
   const gg_heat heat = gg_scene_is_driven(s) ? GG_HEAT_BATHES : gg_common_thermostats[s->thermostat].heat;
   if (s->thermostat == GG_INJECTION && !injected)
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "thermostat: injection needs collision.normal_kick, collision.tangential_kick, a torque on rough grains, or a "
-        "formula of collision.e above 1");
+    return GG_REFUSE(err, "thermostat: injection needs collision.normal_kick, collision.tangential_kick, a torque on "
+                          "rough grains, or a formula of collision.e above 1");
   if (injected && (flow->conserves || flow->linear_response || gg_flow_cools(s->flow)))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: flow: %s takes no energy from %s; use flow: %s", key, flow->word,
-                        torque || gg_scene_has_kicks(s) ? "kicks and torques" : "contacts", gg_flow_of(GG_HSS)->word);
+    return GG_REFUSE(err, "%s: flow: %s takes no energy from %s; use flow: %s", key, flow->word,
+                     torque || gg_scene_has_kicks(s) ? "kicks and torques" : "contacts", gg_flow_of(GG_HSS)->word);
   if (injected && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: does not go with a thermostat that balances the losses; give %s a value, or "
-                        "use thermostat: bath",
-                        key, gg_scene_strength_of(s->thermostat)->key);
+    return GG_REFUSE(
+        err, "%s: does not go with a thermostat that balances the losses; give %s a value, or use thermostat: bath",
+        key, gg_scene_strength_of(s->thermostat)->key);
   return GG_OK;
 }
 
@@ -144,11 +141,11 @@ static gg_status check_gravity(const gg_scene *s, gg_error *err)
   char walled[160];
   if (falls && flow->falling == GG_NEVER_FALLS) {
     gg_common_flow_list(gg_flow_is_walled, walled, sizeof walled);
-    return gg_base_fail(err, GG_BAD_INPUT, "gravity needs a flow with walls: %s", walled);
+    return GG_REFUSE(err, "gravity needs a flow with walls: %s", walled);
   }
   if (!falls && flow->falling == GG_ALWAYS_FALLS)
-    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs gravity, e.g. gravity: [%g, %g, %g]", flow->word,
-                        flow->gravity[0], flow->gravity[1], flow->gravity[2]);
+    return GG_REFUSE(err, "flow: %s needs gravity, e.g. gravity: [%g, %g, %g]", flow->word, flow->gravity[0],
+                     flow->gravity[1], flow->gravity[2]);
   return GG_OK;
 }
 
@@ -159,10 +156,9 @@ static gg_status check_cells(const gg_scene *s, gg_error *err)
   const bool slabs = gg_frame_has_slabs(s->frame);
   const long long n = (long long)s->frame_cells, across = slabs ? 1 : n, cells = n * across * across;
   if (s->frame == GG_FRAME_IMPOSED || gg_flow_is_walled(s->flow) || LEAST_OF_CELL * cells <= s->particles) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'frame_cells': %lld x %lld x %lld %s of %lld grains hold %.2g each; at least %d are needed",
-                      across, n, across, slabs ? "slabs" : "cells", (long long)s->particles,
-                      (double)s->particles / (double)cells, LEAST_OF_CELL);
+  return GG_REFUSE(
+      err, "key 'frame_cells': %lld x %lld x %lld %s of %lld grains hold %.2g each; at least %d are needed", across, n,
+      across, slabs ? "slabs" : "cells", (long long)s->particles, (double)s->particles / (double)cells, LEAST_OF_CELL);
 }
 
 static gg_status check_flow(const gg_scene *s, gg_error *err)
@@ -171,16 +167,14 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
   char cooling[160];
   if (flow->conserves && traits_of(s).lossy) {
     gg_common_flow_list(gg_flow_cools, cooling, sizeof cooling);
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "flow: %s needs collisions that lose no energy: collision.e 1, and collision.beta -1 (or 1 with mu "
-        "inf); for a cooling gas use flow: %s",
-        flow->word, cooling);
+    return GG_REFUSE(err,
+                     "flow: %s needs collisions that lose no energy: collision.e 1, and collision.beta -1 (or 1 with "
+                     "mu inf); for a cooling gas use flow: %s",
+                     flow->word, cooling);
   }
   if (flow->wall_temperature[0] > 0 && !walls_are_thermal(s))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "flow: %s needs walls.temperature, e.g. [%g, %g], and walls.accommodation above 0", flow->word,
-                        flow->wall_temperature[0], flow->wall_temperature[1]);
+    return GG_REFUSE(err, "flow: %s needs walls.temperature, e.g. [%g, %g], and walls.accommodation above 0",
+                     flow->word, flow->wall_temperature[0], flow->wall_temperature[1]);
   GG_TRY(check_thermostat(s, err));
   GG_TRY(check_injection(s, err));
   return check_gravity(s, err);
@@ -192,11 +186,10 @@ static gg_status check_friction(const gg_scene *s, gg_error *err)
   if (gg_scene_is_given(s, "collision.beta")) return GG_OK;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++)
     if ((s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY) || s->collision.by_speed.at[GG_OF_MU][p])
-      return gg_base_fail(
-          err, GG_BAD_INPUT,
-          "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; give "
-          "the beta of sticking contacts, e.g. collision: {beta: 0, mu: %g}",
-          s->collision.mu[p]);
+      return GG_REFUSE(err,
+                       "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; "
+                       "give the beta of sticking contacts, e.g. collision: {beta: 0, mu: %g}",
+                       s->collision.mu[p]);
   return GG_OK;
 }
 
@@ -204,9 +197,9 @@ static gg_status check_contact_value(const gg_scene *s, gg_error *err)
 {
   const double most = gg_common_contact_value_limit(s->contact_value);
   if (s->n_species > 1 || s->phi <= most) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'contact_value': the formula holds up to phi = %g; this scene has %g; use carnahan_starling",
-                      most, s->phi);
+  return GG_REFUSE(err,
+                   "key 'contact_value': the formula holds up to phi = %g; this scene has %g; use carnahan_starling",
+                   most, s->phi);
 }
 
 /* True if the gas starts as the scene says: between walls and in sweeps of the shear rate the flow decides. */
@@ -223,12 +216,12 @@ static gg_status check_start(const gg_scene *s, gg_error *err)
   for (const gg_field *f = gg_scene_fields; f->key && !takes_start(s->flow); f++) {
     const char *here = (const char *)s + f->offset, *usual = (const char *)&defaults + f->offset;
     if ((f->when & GG_BIT(GG_IF_STARTED)) && memcmp(here, usual, sizeof(double)) != 0)
-      return gg_base_fail(err, GG_BAD_INPUT, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
-                          gg_flow_of(s->flow)->word, flows);
+      return GG_REFUSE(err, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
+                       gg_flow_of(s->flow)->word, flows);
   }
   if (s->start.wave > 0 && gg_flow_is_sheared(s->flow))
-    return gg_base_fail(err, GG_BAD_INPUT, "key 'start.wave': flow: %s is sheared; use flow: equilibrium, hcs or hss",
-                        gg_flow_of(s->flow)->word);
+    return GG_REFUSE(err, "key 'start.wave': flow: %s is sheared; use flow: equilibrium, hcs or hss",
+                     gg_flow_of(s->flow)->word);
   return GG_OK;
 }
 
@@ -240,14 +233,14 @@ static gg_status check_rate(const gg_scene *s, gg_error *err)
   if (formula) {
     for (int i = 0; i < gg_scene_protocol_count(s, INFINITY); i++)
       if (strcmp(s->protocol[i].key, "shear_rate") == 0)
-        return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': shear_rate is a formula; give its changes there");
+        return GG_REFUSE(err, "key 'protocol': shear_rate is a formula; give its changes there");
     return GG_OK;
   }
   if (s->shear.rate > 0 || (s->flow == GG_USF && gg_scene_is_followed(s) && gg_scene_unit_rate(s) > 0)) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'shear_rate': %g is not allowed here; allowed: above 0, and in flow: %s with run.duration "
-                      "below 0, or 0 at the start of a protocol that changes it",
-                      s->shear.rate, gg_flow_of(GG_USF)->word);
+  return GG_REFUSE(err,
+                   "key 'shear_rate': %g is not allowed here; allowed: above 0, and in flow: %s with run.duration "
+                   "below 0, or 0 at the start of a protocol that changes it",
+                   s->shear.rate, gg_flow_of(GG_USF)->word);
 }
 
 /* Each change has to leave a valid scene. */
@@ -258,10 +251,10 @@ static gg_status check_protocol(const gg_scene *s, gg_error *err)
   GG_TRY(check_rate(s, err));
   if (!n) return GG_OK;
   if (!gg_scene_is_followed(s))
-    return gg_base_fail(err, GG_BAD_INPUT, "protocol needs run.duration, the time for which the gas is followed");
+    return GG_REFUSE(err, "protocol needs run.duration, the time for which the gas is followed");
   if (s->protocol[n - 1].at >= s->run.duration)
-    return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at: %g is not allowed; allowed: below run.duration, %g",
-                        s->protocol[n - 1].at, s->run.duration);
+    return GG_REFUSE(err, "key 'protocol': at: %g is not allowed; allowed: below run.duration, %g",
+                     s->protocol[n - 1].at, s->run.duration);
   for (int k = 1; k <= n; k++) {
     gg_status status = gg_scene_protocol_apply(s, k, &changed, err);
     if (status == GG_OK) status = check_flow(&changed, err);
@@ -276,8 +269,7 @@ static gg_status check_duration(const gg_scene *s, gg_error *err)
   char flows[160];
   if (!gg_scene_is_followed(s) || takes_start(s->flow)) return check_protocol(s, err);
   gg_common_flow_list(takes_start, flows, sizeof flows);
-  return gg_base_fail(err, GG_BAD_INPUT, "run.duration does not go with flow: %s; use flow: %s",
-                      gg_flow_of(s->flow)->word, flows);
+  return GG_REFUSE(err, "run.duration does not go with flow: %s; use flow: %s", gg_flow_of(s->flow)->word, flows);
 }
 
 /* Formulas and tables replace collision.law, and a law of the program. */
@@ -287,10 +279,8 @@ static gg_status check_laws(const gg_scene *s, gg_error *err)
              user_defined = gg_common_extension_law(s->extension).e != NULL;
   for (int c = 0; (named || user_defined) && c < GG_N_COEFFICIENTS; c++)
     if (gg_common_speed_laws_have(&s->collision.by_speed, (gg_contact_coefficient)c, gg_pairs_of(s->n_species)))
-      return gg_base_fail(
-          err, GG_BAD_INPUT,
-          "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them "
-          "out",
+      return GG_REFUSE(
+          err, "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them out",
           named ? "key 'collision.law'" : "a restitution law of the calling program",
           gg_common_coefficient_name((gg_contact_coefficient)c));
   return GG_OK;
@@ -298,12 +288,10 @@ static gg_status check_laws(const gg_scene *s, gg_error *err)
 
 gg_status gg_scene_finish(gg_scene *s, gg_error *err)
 {
-  if (!gg_scene_is_given(s, "flow")) return gg_base_fail(err, GG_BAD_INPUT, "flow is missing, e.g. flow: usf");
-  if (!gg_scene_is_given(s, "phi"))
-    return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
+  if (!gg_scene_is_given(s, "flow")) return GG_REFUSE(err, "flow is missing, e.g. flow: usf");
+  if (!gg_scene_is_given(s, "phi")) return GG_REFUSE(err, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   if (!(s->output.fields & GG_FIELDS_VELOCITY))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
+    return GG_REFUSE(err, "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
   gg_scene_fill_in(s);
   GG_TRY(check_laws(s, err));
   GG_TRY(check_friction(s, err));
@@ -319,6 +307,16 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
 static bool uses_md(const gg_scene *s, unsigned uses)
 {
   return uses == GG_USE_THEORY || ((uses & GG_USE_MD) && s->phi > 0 && gg_flow_runs_in(s->flow, GG_MD));
+}
+
+static bool uses_dsmc(const gg_scene *s, unsigned uses)
+{
+  return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
+}
+
+static bool has_box(const gg_scene *s, unsigned uses)
+{
+  return uses_md(s, uses) || gg_flow_is_walled(s->flow) || gg_scene_wave(s) > 0;
 }
 
 /* In md, too, the strength of white noise goes with the key: it balances the losses at Enskog's collision rate. */
@@ -346,50 +344,20 @@ static bool may_be_open(gg_flow flow)
   return gg_flow_of(flow)->may_be_open;
 }
 
-/* "KEY has no effect ..."; of those that depend on the flow alone, the flows stand between `otherwise` and `after`. */
+static bool has_losses(const gg_scene *s)
+{
+  return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
+         (gg_flow_is_walled(s->flow) && walls_have_rule(s) &&
+          loses_energy(gg_common_rule_select(s->walls.beta, s->walls.mu), s->walls.e, s->walls.beta));
+}
+
+#define OF_FLOW(NAME, otherwise, after, flow) {otherwise, after, flow, NULL},
+#define OF_SCENE(NAME, otherwise, when, holds) {otherwise, "", NULL, when},
 static const struct {
-  const char *otherwise;
-  bool (*flow)(gg_flow flow);
-  const char *after;
-  const char *when; /* the same as a condition; NULL: the flows say it */
-} conditions[GG_N_CONDITIONS] = {
-    [GG_IF_WALLED] = {"but between walls (flow: ", gg_flow_is_walled, ")", NULL},
-    [GG_IF_SHEARED] = {"but in flow: ", gg_flow_is_sheared, "", NULL},
-    [GG_IF_MOVING_WALLS] = {"but in flow: ", gg_flow_has_moving_walls, "", NULL},
-    [GG_IF_OPENABLE] = {"but in flow: ", may_be_open, "", NULL},
-    [GG_IF_MD] = {"with engine: dsmc", NULL, "", "engine md"},
-    [GG_IF_DSMC] = {"with engine: md", NULL, "", "engine dsmc"},
-    [GG_IF_COUNTED] = {"with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
-                       "engine md; dsmc between walls or with start.wave, or above 5000"},
-    [GG_IF_BOXED] = {"with engine: dsmc, which has no box", NULL, "", "engine md, walls or start.wave"},
-    [GG_IF_ONE_ENGINE] = {"in a comparison; graingas run keeps trajectories and logs", NULL, "", "graingas run"},
-    [GG_IF_CONTACT_VALUE] =
-        {"but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
-         "one species and phi above 0, in theories, dsmc and white noise"},
-    [GG_IF_LOSSY] = {"where no collision loses energy", NULL, "", "collisions lose energy"},
-    [GG_IF_ERROR] = {"but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, "
-                     "or cooling by a law",
-                     NULL, "", "the flow has headline quantities"},
-    [GG_IF_ROUGH] = {"on smooth grains, which do not spin", NULL, "", "rough grains"},
-    [GG_IF_LAW] = {"while collision.law is constant", NULL, "", "collision.law is not constant"},
-    [GG_IF_BETA] = {"while collision.beta is -1: smooth grains", NULL, "", "collision.beta is not -1"},
-    [GG_IF_FRICTION] = {"while collision.mu is 0: smooth grains", NULL, "", "collision.mu is not 0"},
-    [GG_IF_WALL_BETA] = {"while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
-    [GG_IF_WALL_FRICTION] = {"while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
-    [GG_IF_FRAMES] = {"while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
-    [GG_IF_UNWALLED] = {"between walls", NULL, "", "no walls"},
-    [GG_IF_CELLS] = {"while frame is imposed", NULL, "", "frame is not imposed"},
-    [GG_IF_LOCAL] = {"without measure: [local_distributions]", NULL, "", "measure has local_distributions"},
-    [GG_IF_HEATED] = {"but in flow: ", gg_flow_is_heated, "", NULL},
-    [GG_IF_STARTED] = {"but in flow: ", takes_start, "", NULL},
-    [GG_IF_THERMAL_WALLS] = {"while walls.temperature is none", NULL, "", "walls.temperature is given"},
-    [GG_IF_ACCOMMODATION] = {"while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
-    [GG_IF_WALL_RULE] = {"while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
-                         "walls.temperature is none, or walls.accommodation below 1"},
-    [GG_IF_AVERAGED] = {"while run.duration is given", NULL, "", "run.duration is none"},
-    [GG_IF_FOLLOWED] = {"while run.duration is none", NULL, "", "run.duration is given"},
-    [GG_IF_FORMULA] = {"while shear_rate is a number", NULL, "", "shear_rate is a formula"},
-};
+  const char *otherwise, *after;
+  bool (*flow)(gg_flow flow); /* NULL: a condition of the scene, which is `when` in words */
+  const char *when;
+} conditions[] = {GG_CONDITIONS(OF_FLOW, OF_SCENE)};
 
 void gg_scene_field_when(const gg_field *f, char *text, size_t size)
 {
@@ -416,40 +384,12 @@ bool gg_scene_field_is_of(const gg_field *f, gg_flow flow)
   return !(f->when & GG_BIT(GG_IF_UNWALLED)) || !gg_flow_is_walled(flow);
 }
 
-/* Conditions that depend on more than the flow. */
-static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
+/* The conditions that hold, a bit of each. */
+#define FLOW_BIT(NAME, otherwise, after, flow_is) | (flow_is(s->flow) ? GG_BIT(GG_IF_##NAME) : 0)
+#define SCENE_BIT(NAME, otherwise, when, holds) | ((holds) ? GG_BIT(GG_IF_##NAME) : 0)
+static uint64_t conditions_of(const gg_scene *s, unsigned uses)
 {
-  switch (condition) {
-  case GG_IF_MD: return uses_md(s, uses);
-  case GG_IF_BOXED: return uses_md(s, uses) || gg_flow_is_walled(s->flow) || gg_scene_wave(s) > 0;
-  case GG_IF_DSMC: return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
-  case GG_IF_COUNTED:
-    return holds(GG_IF_BOXED, s, uses) || (s->dsmc.particles == 0 && s->particles > GG_LEAST_ENSEMBLE);
-  case GG_IF_ONE_ENGINE: return !(uses & GG_USE_MD) || !(uses & GG_USE_DSMC);
-  case GG_IF_CONTACT_VALUE: return uses_contact_value(s, uses);
-  case GG_IF_LOSSY:
-    return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
-           (gg_flow_is_walled(s->flow) && walls_have_rule(s) &&
-            loses_energy(gg_common_rule_select(s->walls.beta, s->walls.mu), s->walls.e, s->walls.beta));
-  case GG_IF_ERROR: return has_error(s, uses);
-  case GG_IF_ROUGH: return traits_of(s).rough;
-  case GG_IF_LAW: return s->collision.law != GG_LAW_CONSTANT;
-  case GG_IF_BETA: return traits_of(s).beta;
-  case GG_IF_FRICTION: return traits_of(s).friction;
-  case GG_IF_WALL_BETA: return s->walls.beta != -1;
-  case GG_IF_WALL_FRICTION: return s->walls.mu != 0;
-  case GG_IF_THERMAL_WALLS: return s->walls.temperature[0] != GG_AUTO;
-  case GG_IF_ACCOMMODATION: return s->walls.accommodation > 0;
-  case GG_IF_WALL_RULE: return walls_have_rule(s);
-  case GG_IF_FRAMES: return s->output.trajectory_every > 0;
-  case GG_IF_AVERAGED: return !gg_scene_is_followed(s);
-  case GG_IF_FOLLOWED: return gg_scene_is_followed(s);
-  case GG_IF_FORMULA: return *s->shear.formula;
-  case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
-  case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
-  case GG_IF_LOCAL: return s->measure & GG_MEASURE_LOCAL_DISTRIBUTIONS;
-  default: return true;
-  }
+  return 0 GG_CONDITIONS(FLOW_BIT, SCENE_BIT);
 }
 
 /* Keys that have no effect, by the reason. Two more are of parts of keys; the last group has no keys. */
@@ -471,11 +411,9 @@ static void add_key(group *groups, const char *reason, const char *key)
 static bool differs(const gg_field *f, const void *base, const gg_scene *scene, const void *default_base,
                     const gg_scene *defaults)
 {
-  json_t *value = gg_scene_field_json(f, base, scene), *usual = gg_scene_field_json(f, default_base, defaults);
-  bool yes = !json_equal(value, usual);
-  json_decref(value);
-  json_decref(usual);
-  return yes;
+  json_auto_t *value = gg_scene_field_json(f, base, scene);
+  json_auto_t *usual = gg_scene_field_json(f, default_base, defaults);
+  return !json_equal(value, usual);
 }
 
 /* The reason in `text`, if the key has no effect. */
@@ -483,10 +421,10 @@ static bool is_ineffective(const gg_field *f, const gg_scene *scene, unsigned us
 {
   if (f->thermostat && f->thermostat != scene->thermostat)
     return snprintf(text, size, "but with thermostat: %s", gg_common_thermostats[f->thermostat].word), true;
+  const uint64_t lacks = f->when & ~conditions_of(scene, uses);
   for (int i = 0; i < GG_N_CONDITIONS; i++) {
     char flows[160] = "";
-    if (!(f->when & GG_BIT(i))) continue;
-    if (conditions[i].flow ? conditions[i].flow(scene->flow) : holds((gg_condition)i, scene, uses)) continue;
+    if (!(lacks & GG_BIT(i))) continue;
     if (conditions[i].flow) gg_common_flow_list(conditions[i].flow, flows, sizeof flows);
     return snprintf(text, size, "%s%s%s", conditions[i].otherwise, flows, conditions[i].after), true;
   }
@@ -573,7 +511,7 @@ void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_l
     else if (f->type == GG_FIELD_PAIRS)
       add_pairs(groups, f, scene);
   }
-  if (holds(GG_IF_FOLLOWED, scene, uses)) add_changes(groups, scene, uses);
+  if (gg_scene_is_followed(scene)) add_changes(groups, scene, uses);
   if (may_be_open(scene->flow) && scene->walls.top == GG_OPEN_TOP && walls_are_thermal(scene) &&
       scene->walls.temperature[0] != scene->walls.temperature[1])
     add_key(groups, "under an open top", "walls.temperature of the upper wall");

@@ -14,6 +14,22 @@
 #include "common/quantity.h"
 #include "common/thermostat.h"
 
+const gg_field_kind gg_scene_kinds[] = {
+    [GG_FIELD_NUMBER] = {"number", GG_ITEM_F64, 1, "a number"},
+    [GG_FIELD_INTEGER] = {"integer", GG_ITEM_I64, 1, "a whole number"},
+    [GG_FIELD_CHOICE] = {"choice", GG_ITEM_U8, sizeof(int), NULL},
+    [GG_FIELD_SET] = {"set", GG_ITEM_U8, sizeof(unsigned), NULL},
+    [GG_FIELD_PAIRS] = {"pairs", GG_ITEM_F64, GG_PAIRS, "a number"},
+    [GG_FIELD_VECTOR] = {"vector", GG_ITEM_F64, 3, "a list of three numbers"},
+    [GG_FIELD_ENDS] = {"ends", GG_ITEM_F64, 2, "a number or [lower, upper], each"},
+    [GG_FIELD_LIST] = {"list", GG_ITEM_F64, GG_LOCAL_DENSITIES, "a list of up to 8 different numbers, each"},
+    [GG_FIELD_ERRORS] = {"errors", GG_ITEM_F64, GG_MAX_UNTIL, NULL},
+    [GG_FIELD_RATE] = {"rate", GG_ITEM_U8, sizeof(double) + GG_FORMULA_TEXT, NULL},
+    [GG_FIELD_FILE] = {"file", GG_ITEM_U8, GG_FILE_NAME, NULL},
+    [GG_FIELD_CHANGES] = {"changes", GG_ITEM_U8, sizeof(gg_change) * GG_MAX_CHANGES, NULL},
+    [GG_FIELD_SPECIES] = {"species", GG_ITEM_F64, GG_MAX_SPECIES *(sizeof(gg_species) / sizeof(double)), NULL},
+};
+
 static gg_word flow_word(int i)
 {
   return i < GG_N_FLOWS ? (gg_word){gg_common_flows[i].word, i, gg_common_flows[i].doc} : (gg_word){0};
@@ -27,16 +43,15 @@ static gg_word thermostat_word(int i)
 
 #define ENGINE_WORD(KIND, name, title) {#name, GG_##KIND, title},
 static const gg_word engines[] = {GG_ENGINES(ENGINE_WORD){0}};
-static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
-                                         {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
-                                         {"kolafa", GG_KOLAFA, "from the accurate equation of state; phi up to 0.55"},
-                                         {"vescovi2014", GG_VESCOVI,
-                                          "sheared smooth spheres: carnahan_starling up to phi = 0.4, above it a "
-                                          "smooth change to 2/(0.636 - phi)"},
-                                         {"chialvo_sundaresan2013", GG_CHIALVO_SUNDARESAN,
-                                          "sheared smooth spheres: carnahan_starling plus "
-                                          "0.58 phi^2/(0.636 - phi)^(3/2)"},
-                                         {0}};
+static const gg_word contact_values[] = {
+    {"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
+    {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
+    {"kolafa", GG_KOLAFA, "from the accurate equation of state; phi up to 0.55"},
+    {"vescovi2014", GG_VESCOVI,
+     "sheared smooth spheres: carnahan_starling up to phi = 0.4, above it a smooth change to 2/(0.636 - phi)"},
+    {"chialvo_sundaresan2013", GG_CHIALVO_SUNDARESAN,
+     "sheared smooth spheres: carnahan_starling plus 0.58 phi^2/(0.636 - phi)^(3/2)"},
+    {0}};
 static const gg_word precisions[] = {
     {"double", GG_DOUBLE, "relative precision 1e-16"},
     {"single", GG_SINGLE, "relative precision 1e-7, half the memory, up to 1.5 times as fast"},
@@ -85,6 +100,10 @@ static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
 static const gg_word log_endings[] = {{".csv", 0, "a table"}, {".jsonl", 0, "a JSON object a line"}, {0}};
 
 #define AT(member) offsetof(gg_scene, member)
+/* Begin a row whose key is the name of its member in gg_scene, or in gg_species. */
+#define KEY(TYPE, member) #member, GG_FIELD_##TYPE, AT(member)
+#define MEMBER(TYPE, member) #member, GG_FIELD_##TYPE, offsetof(gg_species, member)
+#define IF(CONDITION) GG_BIT(GG_IF_##CONDITION)
 #define AUTO .special = "auto", .special_value = GG_AUTO, .by_default = GG_AUTO
 /* Limits of numbers with a unit: products and ratios of a few of them neither overflow nor underflow. */
 #define SMALL 1e-30
@@ -92,82 +111,78 @@ static const gg_word log_endings[] = {{".csv", 0, "a table"}, {".jsonl", 0, "a J
 #define NONE .special = "none", .special_value = GG_AUTO, .by_default = GG_AUTO
 
 const gg_field gg_scene_fields[] = {
-    {"flow", GG_FIELD_CHOICE, AT(flow), .word = flow_word, .by_default = GG_USF, .doc = "flow to simulate; required",
-     .also = "type"},
-    {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines,
-     .doc = "engine of `graingas run`; `graingas compare` runs both", .also = "method"},
-    {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .word = thermostat_word, .doc = "thermostat that supplies energy",
-     .on_the_way = true},
-    {"bath.drag", GG_FIELD_NUMBER, AT(bath.drag), 0, LARGE, true, .by_default = 1, .unit = "1/time",
+    {KEY(CHOICE, flow), .word = flow_word, .by_default = GG_USF, .doc = "flow to simulate; required", .also = "type"},
+    {KEY(CHOICE, engine), .words = engines, .doc = "engine of `graingas run`; `graingas compare` runs both",
+     .also = "method"},
+    {KEY(CHOICE, thermostat), .word = thermostat_word, .doc = "thermostat that supplies energy", .on_the_way = true},
+    {KEY(NUMBER, bath.drag), 0, LARGE, true, .by_default = 1, .unit = "1/time",
      .doc = "drag coefficient: velocities relative to the imposed flow decay at this rate", .thermostat = GG_BATH,
      .also = "damping", .on_the_way = true},
-    {"bath.temperature", GG_FIELD_NUMBER, AT(bath.temperature), 0, LARGE, .by_default = 1, .unit = "mass velocity^2",
+    {KEY(NUMBER, bath.temperature), 0, LARGE, .by_default = 1, .unit = "mass velocity^2",
      .doc = "temperature that the bath alone would give; 0: drag alone, which needs shear", .thermostat = GG_BATH,
      .also = "T_b", .on_the_way = true},
-    {"bath.rotation", GG_FIELD_NUMBER, AT(bath.rotation), 0, LARGE,
+    {KEY(NUMBER, bath.rotation), 0, LARGE,
      .doc = "drag of spins over that of velocities, at the same temperature; 0: none; 10/3: Stokes drag of a sphere",
-     .when = GG_BIT(GG_IF_ROUGH), .thermostat = GG_BATH, .on_the_way = true},
-    {"gaussian_rate", GG_FIELD_NUMBER, AT(gaussian_rate), 0, LARGE, true, AUTO, .unit = "1/time",
+     .when = IF(ROUGH), .thermostat = GG_BATH, .on_the_way = true},
+    {KEY(NUMBER, gaussian_rate), 0, LARGE, true, AUTO, .unit = "1/time",
      .doc = "rate zeta_0 of the Gaussian thermostat, dT/dt = zeta_0 T; auto: that of the energy lost in collisions",
-     .when = GG_BIT(GG_IF_HEATED), .thermostat = GG_GAUSSIAN, .on_the_way = true},
-    {"noise_strength", GG_FIELD_NUMBER, AT(noise_strength), 0, LARGE, true, AUTO, .unit = "velocity^2/time",
+     .when = IF(HEATED), .thermostat = GG_GAUSSIAN, .on_the_way = true},
+    {KEY(NUMBER, noise_strength), 0, LARGE, true, AUTO, .unit = "velocity^2/time",
      .doc = "xi^2 of white noise: variance that each component of a velocity gains per time; auto: balances the losses "
             "at the initial temperature",
      .thermostat = GG_WHITE_NOISE, .on_the_way = true},
-    {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
-     .doc = "formula for the pair correlation at contact", .when = GG_BIT(GG_IF_CONTACT_VALUE)},
-    {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6, .by_default = GG_AUTO,
+    {KEY(CHOICE, contact_value), .words = contact_values, .doc = "formula for the pair correlation at contact",
+     .when = IF(CONTACT_VALUE)},
+    {KEY(NUMBER, phi), 0, 0.6, .by_default = GG_AUTO,
      .doc = "solid fraction; required; 0 is the Boltzmann limit (dsmc only)",
      .also = "density volume_fraction solid_fraction packing_fraction nu"},
-    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .by_default = 1000,
+    {KEY(INTEGER, particles), 2, 1e8, .by_default = 1000,
      .doc = "number of grains in the box; by default fewer, from 500 on, where a box of 1000 that cools or has the "
             "Gaussian thermostat would not stay homogeneous",
-     .when = GG_BIT(GG_IF_COUNTED), .also = "N grains number n_particles num_particles"},
+     .when = IF(COUNTED), .also = "N grains number n_particles num_particles"},
     {"shear_rate", GG_FIELD_RATE, AT(shear.rate), -LARGE, LARGE, .by_default = 1, .unit = "1/time",
      .doc = "imposed shear rate: above 0; with run.duration also 0, below 0, or a formula of the time t, "
             "\"sin(2*pi*t/10)\", whose mean in each of shear_steps steps is imposed",
-     .when = GG_BIT(GG_IF_SHEARED), .also = "gamma gamma_dot rate shear", .on_the_way = true},
+     .when = IF(SHEARED), .also = "gamma gamma_dot rate shear", .on_the_way = true},
     {"shear_steps", GG_FIELD_INTEGER, AT(shear.steps), 1, 1e5, .by_default = 100,
      .doc = "number of equal steps of constant shear rate, at whose ends the gas is sampled: in shear_period, or in "
             "run.duration",
-     .when = GG_BIT(GG_IF_SHEARED) | GG_BIT(GG_IF_FOLLOWED) | GG_BIT(GG_IF_FORMULA)},
+     .when = IF(SHEARED) | IF(FOLLOWED) | IF(FORMULA)},
     {"shear_period", GG_FIELD_NUMBER, AT(shear.period), 0, LARGE, true, NONE, .unit = "time",
      .doc = "period of the formula; run.duration has a whole number of them, two or more: of the later half amplitudes "
             "and phases of stress and temperature are computed",
-     .when = GG_BIT(GG_IF_SHEARED) | GG_BIT(GG_IF_FOLLOWED) | GG_BIT(GG_IF_FORMULA)},
-    {"start.temperature", GG_FIELD_NUMBER, AT(start.temperature), 1e-100, 1e100, false, AUTO, .unit = "mass velocity^2",
+     .when = IF(SHEARED) | IF(FOLLOWED) | IF(FORMULA)},
+    {KEY(NUMBER, start.temperature), 1e-100, 1e100, false, AUTO, .unit = "mass velocity^2",
      .doc = "initial temperature, <m C.C>/3; auto: near the steady state, and where the gas keeps or loses its initial "
             "temperature the one that makes v_0 a diameter per unit of time",
-     .when = GG_BIT(GG_IF_STARTED), .also = "T T0 temp", .older = "temperature"},
-    {"start.rotational_temperature", GG_FIELD_NUMBER, AT(start.rotational_temperature), 0, 1e100, false, AUTO,
-     .unit = "mass velocity^2", .doc = "initial rotational temperature; auto: near the steady state",
-     .when = GG_BIT(GG_IF_STARTED) | GG_BIT(GG_IF_ROUGH), .also = "theta", .older = "rotational_temperature"},
-    {"start.a2", GG_FIELD_NUMBER, AT(start.a2), -0.39, 2,
+     .when = IF(STARTED), .also = "T T0 temp", .older = "temperature"},
+    {KEY(NUMBER, start.rotational_temperature), 0, 1e100, false, AUTO, .unit = "mass velocity^2",
+     .doc = "initial rotational temperature; auto: near the steady state", .when = IF(STARTED) | IF(ROUGH),
+     .also = "theta", .older = "rotational_temperature"},
+    {KEY(NUMBER, start.a2), -0.39, 2,
      .doc = "initial fourth cumulant of the velocities: C^2 has the gamma distribution of shape 0.6/(0.4 + a2)",
-     .when = GG_BIT(GG_IF_STARTED)},
-    {"start.spin", GG_FIELD_NUMBER, AT(start.spin), -LARGE, LARGE, false, AUTO, .unit = "1/time",
+     .when = IF(STARTED)},
+    {KEY(NUMBER, start.spin), -LARGE, LARGE, false, AUTO, .unit = "1/time",
      .doc = "initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0",
-     .when = GG_BIT(GG_IF_STARTED) | GG_BIT(GG_IF_ROUGH)},
-    {"start.wave", GG_FIELD_NUMBER, AT(start.wave), 0, 1,
+     .when = IF(STARTED) | IF(ROUGH)},
+    {KEY(NUMBER, start.wave), 0, 1,
      .doc = "amplitude of a transverse wave u_x = wave v_0 sin(2 pi y/L_y), v_0 = sqrt(2 T/m): shear_wave measures its "
             "decay; the box is then long enough along y, unless aspect is given",
-     .when = GG_BIT(GG_IF_STARTED) | GG_BIT(GG_IF_FOLLOWED)},
-    {"start.positions", GG_FIELD_FILE, AT(start.positions), .words = placements, .special = "random",
-     .doc =
-         "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of length, "
-         "without overlaps; its path is relative to the scene's file, and only a start reads it",
-     .when = GG_BIT(GG_IF_MD), .reads = true, .may_change = true},
-    {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .by_default = 1,
-     .doc = "shape of the box: ratio of its edges x : y : z", .when = GG_BIT(GG_IF_BOXED), .also = "box"},
-    {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
+     .when = IF(STARTED) | IF(FOLLOWED)},
+    {KEY(FILE, start.positions), .words = placements, .special = "random",
+     .doc = "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of "
+            "length, without overlaps; its path is relative to the scene's file, and only a start reads it",
+     .when = IF(MD), .reads = true},
+    {KEY(VECTOR, aspect), 0.01, 100, .by_default = 1, .doc = "shape of the box: ratio of its edges x : y : z",
+     .when = IF(BOXED), .also = "box"},
+    {KEY(PAIRS, collision.e), 0, 1, .by_default = 0.9,
      .doc = "coefficient of normal restitution; in equilibrium the default is 1; a formula or table may exceed 1",
      .also = "restitution alpha normal_restitution e_n en", .on_the_way = true, .by_speed = 1 + GG_OF_E},
-    {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1, .by_default = -1,
+    {KEY(PAIRS, collision.beta), -1, 1, .by_default = -1,
      .doc = "coefficient of tangential restitution: -1 smooth, 1 perfectly rough; with finite mu, of sticking contacts",
-     .when = GG_BIT(GG_IF_FRICTION), .also = "tangential_restitution e_t et", .on_the_way = true,
-     .by_speed = 1 + GG_OF_BETA},
-    {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY, .by_default = INFINITY,
-     .doc = "Coulomb friction coefficient; inf: beta is constant", .when = GG_BIT(GG_IF_BETA), .also = "friction",
+     .when = IF(FRICTION), .also = "tangential_restitution e_t et", .on_the_way = true, .by_speed = 1 + GG_OF_BETA},
+    {KEY(PAIRS, collision.mu), 0, INFINITY, .by_default = INFINITY,
+     .doc = "Coulomb friction coefficient; inf: beta is constant", .when = IF(BETA), .also = "friction",
      .on_the_way = true, .by_speed = 1 + GG_OF_MU},
     {"collision.normal_kick", GG_FIELD_PAIRS, AT(collision.kick[GG_NORMAL_KICK]), 0, LARGE, .unit = "velocity",
      .doc = "D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D", .on_the_way = true},
@@ -176,127 +191,121 @@ const gg_field gg_scene_fields[] = {
      .doc = "D_t of kicks at contact: the surface of grain 1 gets 2 D_t k x z against that of grain 2, k from 1 to 2; "
             "above 0 the pair turns about z by the right hand",
      .on_the_way = true},
-    {"collision.law", GG_FIELD_CHOICE, AT(collision.law), .words = laws,
+    {KEY(CHOICE, collision.law), .words = laws,
      .doc = "dependence of e on the normal speed of a collision between grains", .also = "model", .on_the_way = true},
-    {"collision.speed", GG_FIELD_NUMBER, AT(collision.speed), SMALL, LARGE, false, AUTO, .unit = "velocity",
-     .doc = "normal speed at which collision.e holds; auto: the unit of velocity of results", .when = GG_BIT(GG_IF_LAW),
+    {KEY(NUMBER, collision.speed), SMALL, LARGE, false, AUTO, .unit = "velocity",
+     .doc = "normal speed at which collision.e holds; auto: the unit of velocity of results", .when = IF(LAW),
      .on_the_way = true},
-    {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "species of the mixture, up to 16"},
-    {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .by_default = 0.9,
-     .doc = "coefficient of normal restitution at walls", .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_WALL_RULE)},
-    {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1, .by_default = 1,
+    {KEY(SPECIES, species), 1, GG_MAX_SPECIES, .doc = "species of the mixture, up to 16"},
+    {KEY(NUMBER, walls.e), 0, 1, .by_default = 0.9, .doc = "coefficient of normal restitution at walls",
+     .when = IF(WALLED) | IF(WALL_RULE)},
+    {KEY(NUMBER, walls.beta), -1, 1, .by_default = 1,
      .doc = "coefficient of tangential restitution at walls; smooth grains do not spin: theirs applies to the centre",
-     .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_WALL_RULE) | GG_BIT(GG_IF_WALL_FRICTION)},
-    {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .by_default = INFINITY,
-     .doc = "Coulomb friction coefficient at walls",
-     .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_WALL_RULE) | GG_BIT(GG_IF_WALL_BETA)},
-    {"walls.temperature", GG_FIELD_ENDS, AT(walls.temperature), SMALL, LARGE, false, NONE, .unit = "mass velocity^2",
+     .when = IF(WALLED) | IF(WALL_RULE) | IF(WALL_FRICTION)},
+    {KEY(NUMBER, walls.mu), 0, INFINITY, .by_default = INFINITY, .doc = "Coulomb friction coefficient at walls",
+     .when = IF(WALLED) | IF(WALL_RULE) | IF(WALL_BETA)},
+    {KEY(ENDS, walls.temperature), SMALL, LARGE, false, NONE, .unit = "mass velocity^2",
      .doc = "temperature of the walls, of both or [lower, upper]: grains that touch leave with velocities and spins of "
             "a gas of it; none: by walls.e, beta and mu",
-     .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_ACCOMMODATION)},
-    {"walls.accommodation", GG_FIELD_NUMBER, AT(walls.accommodation), 0, 1, .by_default = 1,
+     .when = IF(WALLED) | IF(ACCOMMODATION)},
+    {KEY(NUMBER, walls.accommodation), 0, 1, .by_default = 1,
      .doc = "share of contacts in which a wall of a given temperature does so; the others are by walls.e, beta and mu",
-     .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_THERMAL_WALLS)},
-    {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "upper boundary of a chute",
-     .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_OPENABLE)},
-    {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .by_default = 1, .unit = "velocity",
-     .doc = "speed of moving walls: +speed at +L_y/2, -speed at -L_y/2",
-     .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_MOVING_WALLS)},
-    {"walls.ridges", GG_FIELD_NUMBER, AT(walls.ridges), 0, LARGE, .unit = "length",
+     .when = IF(WALLED) | IF(THERMAL_WALLS)},
+    {KEY(CHOICE, walls.top), .words = tops, .doc = "upper boundary of a chute", .when = IF(WALLED) | IF(OPENABLE)},
+    {KEY(NUMBER, walls.speed), SMALL, LARGE, .by_default = 1, .unit = "velocity",
+     .doc = "speed of moving walls: +speed at +L_y/2, -speed at -L_y/2", .when = IF(WALLED) | IF(MOVING_WALLS)},
+    {KEY(NUMBER, walls.ridges), 0, LARGE, .unit = "length",
      .doc =
          "diameter of half cylinders across the flow on resting walls, adjusted so that a whole number fits; 0: flat",
-     .when = GG_BIT(GG_IF_WALLED)},
-    {"gravity", GG_FIELD_VECTOR, AT(gravity), -1e12, 1e12, .unit = "acceleration",
-     .doc = "body force per mass; poiseuille and chute have defaults of their own", .when = GG_BIT(GG_IF_WALLED),
-     .also = "g"},
-    {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
+     .when = IF(WALLED)},
+    {KEY(VECTOR, gravity), -1e12, 1e12, .unit = "acceleration",
+     .doc = "body force per mass; poiseuille and chute have defaults of their own", .when = IF(WALLED), .also = "g"},
+    {KEY(NUMBER, run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or no such test if "
             "run.collisions or run.until is given",
-     .when = GG_BIT(GG_IF_AVERAGED) | GG_BIT(GG_IF_ERROR), .also = "error tolerance accuracy", .may_change = true},
-    {"run.until", GG_FIELD_ERRORS, AT(run.until), 0, 1, true, .special = "none",
+     .when = IF(AVERAGED) | IF(ERROR), .also = "error tolerance accuracy", .may_change = true},
+    {KEY(ERRORS, run.until), 0, 1, true, .special = "none",
      .doc = "stop when each of these quantities has its relative standard error: {N1: 0.01, temperature: 0.002}; "
             "headline quantities that are not named keep run.relative_error, if it is given",
-     .when = GG_BIT(GG_IF_AVERAGED), .also = "target targets", .may_change = true},
-    {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
+     .when = IF(AVERAGED), .also = "target targets", .may_change = true},
+    {KEY(NUMBER, run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
      .doc = "stop after this length of averaging; a gas cooling with a restitution law has 400 by default",
-     .when = GG_BIT(GG_IF_AVERAGED), .also = "steps", .may_change = true},
-    {"run.time_limit", GG_FIELD_NUMBER, AT(run.time_limit), 0, 1e9, true, NONE, .unit = "s",
+     .when = IF(AVERAGED), .also = "steps", .may_change = true},
+    {KEY(NUMBER, run.time_limit), 0, 1e9, true, NONE, .unit = "s",
      .doc = "wall-clock limit, counted from the first start; to continue, resume with a larger limit",
      .also = "walltime wall_time max_time", .may_change = true},
-    {"run.duration", GG_FIELD_NUMBER, AT(run.duration), 0, LARGE, true, NONE, .unit = "time",
+    {KEY(NUMBER, run.duration), 0, LARGE, true, NONE, .unit = "time",
      .doc = "follow the gas from its start for this time, without warm-up: curves in time are means over replicas, and "
             "values those at the end",
-     .when = GG_BIT(GG_IF_UNWALLED), .also = "t_end end_time until_time"},
-    {"run.warmup", GG_FIELD_NUMBER, AT(run.warmup), 0, 1e15, false, AUTO, .unit = "collisions per grain",
-     .doc = "length of the warm-up; auto: until the slowest quantity is steady", .when = GG_BIT(GG_IF_AVERAGED),
+     .when = IF(UNWALLED), .also = "t_end end_time until_time"},
+    {KEY(NUMBER, run.warmup), 0, 1e15, false, AUTO, .unit = "collisions per grain",
+     .doc = "length of the warm-up; auto: until the slowest quantity is steady", .when = IF(AVERAGED),
      .also = "equilibration burn_in"},
-    {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .by_default = 1,
+    {KEY(INTEGER, run.replicas), 1, 10000, .by_default = 1,
      .doc = "number of independent copies to average over; 8 by default if run.duration is given",
      .also = "repeats copies"},
-    {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0, .by_default = 1,
+    {KEY(INTEGER, run.seed), 0, 9223372036854775807.0, .by_default = 1,
      .doc = "seed of the random streams; the same seed gives the same run"},
-    {"md.contact_time", GG_FIELD_NUMBER, AT(md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
+    {KEY(NUMBER, md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
      .doc = "collisions of a grain closer in time than this lose no normal energy, against inelastic collapse; 0: off; "
             "auto: 1e-5, tenfold up to 1e-3 where grains collapse nevertheless; with gravity along y 1e-3 sqrt(d/g)",
-     .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_LOSSY)},
-    {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
-     .doc = "time step of the Monte Carlo engine", .when = GG_BIT(GG_IF_DSMC), .also = "dt"},
-    {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
+     .when = IF(MD) | IF(LOSSY)},
+    {KEY(NUMBER, dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
+     .doc = "time step of the Monte Carlo engine", .when = IF(DSMC), .also = "dt"},
+    {KEY(INTEGER, dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
      .doc = "size of the Monte Carlo ensemble; auto: particles, at least 5000, and finite-size bias below a quarter of "
             "run.relative_error, between walls half",
-     .when = GG_BIT(GG_IF_DSMC)},
-    {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
-     .doc = "precision of stored velocities and spins in dsmc; sums are always double", .when = GG_BIT(GG_IF_DSMC)},
-    {"protocol", GG_FIELD_CHANGES, AT(protocol),
+     .when = IF(DSMC)},
+    {KEY(CHOICE, dsmc.precision), .words = precisions,
+     .doc = "precision of stored velocities and spins in dsmc; sums are always double", .when = IF(DSMC)},
+    {KEY(CHANGES, protocol),
      .doc = "what changes on the way, at times from the start: [{at: 5, bath.temperature: 2}]; keys: " GG_PROTOCOL_KEYS,
-     .when = GG_BIT(GG_IF_FOLLOWED), .also = "schedule quench steps"},
-    {"measure", GG_FIELD_SET, AT(measure), .words = observables, .by_default = GG_MEASURE_RHEOLOGY,
+     .when = IF(FOLLOWED), .also = "schedule quench steps"},
+    {KEY(SET, measure), .words = observables, .by_default = GG_MEASURE_RHEOLOGY,
      .doc = "observables to measure; unlisted ones cost nothing", .also = "observables"},
-    {"frame", GG_FIELD_CHOICE, AT(frame), .words = frames,
+    {KEY(CHOICE, frame), .words = frames,
      .doc = "what peculiar velocities and spins are relative to, in means and distributions",
-     .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_UNWALLED)},
-    {"frame_cells", GG_FIELD_INTEGER, AT(frame_cells), 1, 400, .by_default = 5,
+     .when = IF(MD) | IF(UNWALLED)},
+    {KEY(INTEGER, frame_cells), 1, 400, .by_default = 5,
      .doc = "cells along each edge of the box, or slabs along y; at least 4 grains in each",
-     .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_UNWALLED) | GG_BIT(GG_IF_CELLS)},
-    {"local_densities", GG_FIELD_LIST, AT(local_densities), 0, 0.74, true, .special = "auto",
+     .when = IF(MD) | IF(UNWALLED) | IF(CELLS)},
+    {KEY(LIST, local_densities), 0, 0.74, true, .special = "auto",
      .doc = "solid fractions of the cells of local_distributions, each within a tenth; auto: 0.5, 0.75, 1, 1.25, 1.5 "
             "times phi",
-     .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_UNWALLED) | GG_BIT(GG_IF_LOCAL)},
-    {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
-     .doc = "wall-clock time between checkpoints; 0: none", .may_change = true},
-    {"output.state", GG_FIELD_CHOICE, AT(output.state), .words = kept_states,
-     .doc = "checkpoint at the end of a finished run"},
-    {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
-     .doc = "interval between stored frames; 0: only the last state", .when = GG_BIT(GG_IF_ONE_ENGINE), .also = "dump",
+     .when = IF(MD) | IF(UNWALLED) | IF(LOCAL)},
+    {KEY(NUMBER, output.checkpoint_every), 0, 1e9, .unit = "s", .doc = "wall-clock time between checkpoints; 0: none",
      .may_change = true},
-    {"output.after", GG_FIELD_CHOICE, AT(output.after), .words = frames_after, .doc = "first frame that is stored",
-     .when = GG_BIT(GG_IF_ONE_ENGINE) | GG_BIT(GG_IF_FRAMES), .may_change = true},
-    {"output.fields", GG_FIELD_SET, AT(output.fields), .words = stored_fields, .by_default = GG_FIELDS_ALL,
+    {KEY(CHOICE, output.state), .words = kept_states, .doc = "checkpoint at the end of a finished run"},
+    {KEY(NUMBER, output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
+     .doc = "interval between stored frames; 0: only the last state", .when = IF(ONE_ENGINE), .also = "dump",
+     .may_change = true},
+    {KEY(CHOICE, output.after), .words = frames_after, .doc = "first frame that is stored",
+     .when = IF(ONE_ENGINE) | IF(FRAMES), .may_change = true},
+    {KEY(SET, output.fields), .words = stored_fields, .by_default = GG_FIELDS_ALL,
      .doc = "what frames in the result file hold of every grain; velocity is always among it", .may_change = true},
-    {"output.precision", GG_FIELD_CHOICE, AT(output.precision), .words = stored_precisions,
+    {KEY(CHOICE, output.precision), .words = stored_precisions,
      .doc = "precision of the frames in the result file; means, curves and checkpoints are always double",
      .may_change = true},
-    {"output.log", GG_FIELD_FILE, AT(output.log), .words = log_endings, .special = "none",
+    {KEY(FILE, output.log), .words = log_endings, .special = "none",
      .doc = "file to which a run appends a row for each sample of its first replica: time, collisions, headline "
             "quantities and their means so far; beside the result, unless its path is absolute",
-     .when = GG_BIT(GG_IF_ONE_ENGINE), .may_change = true},
+     .when = IF(ONE_ENGINE), .may_change = true},
     {0},
 };
 
 const gg_field gg_scene_species_fields[] = {
-    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, LARGE, true, .by_default = 1,
+    {MEMBER(NUMBER, fraction), 0, LARGE, true, .by_default = 1,
      .doc = "mole fraction n_i/n, or a weight: fractions are divided by their sum; left out: an equal part",
      .besides = "leave out a species without grains", .also = "concentration"},
-    {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .by_default = 1, .unit = "length",
-     .doc = "diameter of a grain", .also = "d size radius"},
-    {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .by_default = 1, .unit = "mass",
-     .doc = "mass of a grain", .also = "m"},
-    {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false, .by_default = 0.4,
-     .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = GG_BIT(GG_IF_ROUGH), .also = "K I"},
-    {"drag", GG_FIELD_NUMBER, offsetof(gg_species, drag), SMALL, LARGE, .by_default = 1,
+    {MEMBER(NUMBER, diameter), SMALL, LARGE, .by_default = 1, .unit = "length", .doc = "diameter of a grain",
+     .also = "d size radius"},
+    {MEMBER(NUMBER, mass), SMALL, LARGE, .by_default = 1, .unit = "mass", .doc = "mass of a grain", .also = "m"},
+    {MEMBER(NUMBER, inertia), 1e-6, 1, false, .by_default = 0.4, .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow",
+     .when = IF(ROUGH), .also = "K I"},
+    {MEMBER(NUMBER, drag), SMALL, LARGE, .by_default = 1,
      .doc = "drag of the bath on this species, in units of bath.drag", .thermostat = GG_BATH},
-    {"torque", GG_FIELD_NUMBER, offsetof(gg_species, torque), -LARGE, LARGE, .unit = "mass velocity^2",
-     .doc = "constant torque about z on each grain", .when = GG_BIT(GG_IF_ROUGH)},
+    {MEMBER(NUMBER, torque), -LARGE, LARGE, .unit = "mass velocity^2", .doc = "constant torque about z on each grain",
+     .when = IF(ROUGH)},
     {0},
 };
 
@@ -313,17 +322,12 @@ _Static_assert(sizeof gg_scene_fields / sizeof *gg_scene_fields <= GG_MAX_FIELDS
 static void set_default(const gg_field *f, void *base)
 {
   void *at = (char *)base + f->offset;
-  switch (f->type) {
-  case GG_FIELD_INTEGER: *(int64_t *)at = (int64_t)f->by_default; return;
-  case GG_FIELD_CHOICE:
-  case GG_FIELD_SET: memcpy(at, &(int){(int)f->by_default}, sizeof(int)); return; /* of numbers it may be infinite */
-  case GG_FIELD_SPECIES:
-  case GG_FIELD_CHANGES:
-  case GG_FIELD_FILE: return;
-  case GG_FIELD_RATE: *(double *)at = f->by_default; return; /* the formula stays empty */
-  default:
-    for (size_t i = 0; i < gg_scene_field_count(f); i++) ((double *)at)[i] = f->by_default;
-  }
+  if (f->type == GG_FIELD_INTEGER)
+    *(int64_t *)at = (int64_t)f->by_default;
+  else if (f->type == GG_FIELD_CHOICE || f->type == GG_FIELD_SET)
+    memcpy(at, &(int){(int)f->by_default}, sizeof(int)); /* of numbers it may be infinite */
+  else if (f->type != GG_FIELD_SPECIES && f->type != GG_FIELD_CHANGES && f->type != GG_FIELD_FILE)
+    for (size_t i = 0; i < gg_scene_field_count(f); i++) ((double *)at)[i] = f->by_default; /* no formula of a rate */
 }
 
 gg_scene gg_scene_defaults(void)
@@ -354,14 +358,7 @@ void gg_scene_release(gg_scene *scene)
 
 size_t gg_scene_field_count(const gg_field *f)
 {
-  switch (f->type) {
-  case GG_FIELD_PAIRS: return GG_PAIRS;
-  case GG_FIELD_ERRORS: return GG_MAX_UNTIL;
-  case GG_FIELD_VECTOR: return 3;
-  case GG_FIELD_LIST: return GG_LOCAL_DENSITIES;
-  case GG_FIELD_ENDS: return 2;
-  default: return 1;
-  }
+  return gg_scene_kinds[f->type].item == GG_ITEM_F64 && f->type != GG_FIELD_SPECIES ? gg_scene_kinds[f->type].count : 1;
 }
 
 static int find(const gg_field *fields, const char *key)
@@ -497,8 +494,9 @@ static void format_limit(const gg_field *f, double value, char text[GG_NUMBER_TE
     gg_io_number_format(value, text);
 }
 
-static void number_allowed(const gg_field *f, const char *what, char *text, size_t size)
+static void number_allowed(const gg_field *f, char *text, size_t size)
 {
+  const char *what = gg_scene_kinds[f->type].number;
   char min[GG_NUMBER_TEXT], max[GG_NUMBER_TEXT];
   format_limit(f, f->min, min);
   format_limit(f, f->max, max);
@@ -516,13 +514,13 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
 {
   gg_word word;
   switch (f->type) {
-  case GG_FIELD_NUMBER: number_allowed(f, "a number", text, size); return;
-  case GG_FIELD_INTEGER: number_allowed(f, "a whole number", text, size); return;
-  case GG_FIELD_VECTOR: number_allowed(f, "a list of three numbers", text, size); return;
-  case GG_FIELD_ENDS: number_allowed(f, "a number or [lower, upper], each", text, size); return;
-  case GG_FIELD_LIST: number_allowed(f, "a list of up to 8 different numbers, each", text, size); return;
+  case GG_FIELD_NUMBER:
+  case GG_FIELD_INTEGER:
+  case GG_FIELD_VECTOR:
+  case GG_FIELD_ENDS:
+  case GG_FIELD_LIST: number_allowed(f, text, size); return;
   case GG_FIELD_PAIRS:
-    number_allowed(f, "a number", text, size);
+    number_allowed(f, text, size);
     if (f->by_speed) gg_base_text_append(text, size, ", a formula of the normal speed v, {table: FILE}");
     gg_base_text_append(text, size, ", or a map of them by pair of species: {11: , 12: , other: }");
     return;

@@ -11,6 +11,7 @@
 #include "base/archive.h"
 #include "base/text.h"
 #include "io/file_writer.h"
+#include "scene/conditions.h"
 #include "scene/scene.h"
 
 typedef enum gg_field_type {
@@ -29,49 +30,21 @@ typedef enum gg_field_type {
   GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_scene_species_fields */
 } gg_field_type;
 
+/* A type's name in catalogues; how a value stands in memory, and so in archives; of numbers what is allowed, before
+ * their limits. */
+typedef struct gg_field_kind {
+  const char *name;
+  gg_item_type item;
+  size_t count;
+  const char *number;
+} gg_field_kind;
+extern const gg_field_kind gg_scene_kinds[];
+
 typedef struct gg_word {
   const char *name;
   int value;
   const char *doc;
 } gg_word;
-
-/* Conditions for a key to have an effect. checks.c evaluates them in this order, and has the reason why a key has none.
- */
-typedef enum gg_condition {
-  GG_IF_WALLED,
-  GG_IF_SHEARED,
-  GG_IF_MOVING_WALLS,
-  GG_IF_OPENABLE,
-  GG_IF_MD,
-  GG_IF_DSMC,
-  GG_IF_COUNTED,
-  GG_IF_BOXED,
-  GG_IF_ONE_ENGINE,
-  GG_IF_CONTACT_VALUE,
-  GG_IF_LOSSY,
-  GG_IF_ERROR,
-  GG_IF_ROUGH,
-  GG_IF_LAW,
-  GG_IF_BETA,
-  GG_IF_FRICTION,
-  GG_IF_WALL_BETA,
-  GG_IF_WALL_FRICTION,
-  GG_IF_FRAMES,
-  GG_IF_UNWALLED,
-  GG_IF_CELLS,
-  GG_IF_LOCAL,
-  GG_IF_HEATED,
-  GG_IF_STARTED,
-  GG_IF_THERMAL_WALLS,
-  GG_IF_WALL_RULE,
-  GG_IF_ACCOMMODATION,
-  GG_IF_AVERAGED,
-  GG_IF_FOLLOWED,
-  GG_IF_FORMULA,
-  GG_N_CONDITIONS
-} gg_condition;
-#define GG_BIT(condition) (UINT64_C(1) << (condition))
-_Static_assert(GG_N_CONDITIONS <= 64, "gg_field.when has a bit for each");
 
 typedef struct gg_field {
   const char *key; /* dotted */
@@ -119,7 +92,7 @@ bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* True if it is the first part of some dotted key ("collision"). */
 bool gg_scene_is_section(const char *name);
 
-/* How many values the member holds; of species and words 1. */
+/* How many numbers the member holds; of others 1. */
 size_t gg_scene_field_count(const gg_field *field);
 /* The i-th word that a choice or a set takes; beyond the last one its name is NULL. */
 gg_word gg_scene_field_word(const gg_field *field, int i);

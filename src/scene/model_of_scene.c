@@ -12,12 +12,11 @@ static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *er
 {
   for (int i = 0; m->n_species > 1 && i < m->n_species; i++)
     if (m->n_of[i] < 2)
-      return gg_base_fail(
-          err, GG_BAD_INPUT,
-          "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s a "
-          "larger value",
-          s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
-          m->ensemble ? "dsmc.particles" : "particles");
+      return GG_REFUSE(err,
+                       "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s "
+                       "a larger value",
+                       s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
+                       m->ensemble ? "dsmc.particles" : "particles");
   return GG_OK;
 }
 
@@ -80,17 +79,16 @@ static gg_status check_unequal(const char *key, double least, double greatest, d
 {
   double ratio = greatest / least;
   if (ratio <= most) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "species: values of %s in a ratio of 1 : %g are not allowed; allowed: up to 1 : %g", key, ratio,
-                      most);
+  return GG_REFUSE(err, "species: values of %s in a ratio of 1 : %g are not allowed; allowed: up to 1 : %g", key, ratio,
+                   most);
 }
 
 static gg_status check_scales(const gg_scene *s, gg_error *err)
 {
   if (s->phi > 0 && s->phi < LEAST_PHI)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0 for the Boltzmann limit",
-                        s->phi, LEAST_PHI);
+    return GG_REFUSE(err,
+                     "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0 for the Boltzmann limit",
+                     s->phi, LEAST_PHI);
   double mass[2] = {INFINITY, 0}, diameter[2] = {INFINITY, 0};
   for (int i = 0; i < s->n_species; i++) {
     const gg_species *one = &s->species[i];
@@ -107,11 +105,11 @@ static gg_status check_start(const gg_model *m, const gg_scene *s, gg_error *err
   if (!gg_flow_is_sheared(s->flow) || s->start.temperature == GG_AUTO) return GG_OK;
   const double T = gg_units_temperature(m->unit, s->start.temperature), unit = s->start.temperature / T;
   if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "start.temperature: %g is %.3g mass x (diameter x shear_rate)^2; allowed in sheared flows: from "
-                      "%g to %g of that, here %.3g to %.3g, or auto",
-                      s->start.temperature, T, starts_within[0], starts_within[1], starts_within[0] * unit,
-                      starts_within[1] * unit);
+  return GG_REFUSE(err,
+                   "start.temperature: %g is %.3g mass x (diameter x shear_rate)^2; allowed in sheared flows: from %g "
+                   "to %g of that, here %.3g to %.3g, or auto",
+                   s->start.temperature, T, starts_within[0], starts_within[1], starts_within[0] * unit,
+                   starts_within[1] * unit);
 }
 
 static void set_reference_speed(gg_model *m, const gg_scene *s)
@@ -134,9 +132,8 @@ static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
     const double e = s->collision.e[p];
     if (e < GG_LAW_LEAST_E || (e > GG_LAW_MOST_E && e < 1))
-      return gg_base_fail(err, GG_BAD_INPUT,
-                          "key 'collision.e': %.10g with collision.law %s; allowed: from %g to %g, or 1", e,
-                          m->law.name, GG_LAW_LEAST_E, GG_LAW_MOST_E);
+      return GG_REFUSE(err, "key 'collision.e': %.10g with collision.law %s; allowed: from %g to %g, or 1", e,
+                       m->law.name, GG_LAW_LEAST_E, GG_LAW_MOST_E);
     m->law.scale[p] = gg_common_law_speed_of(m->law.kind, 1 - e);
   }
   return GG_OK;
@@ -180,14 +177,12 @@ static gg_status set_bath(gg_model *m, const gg_scene *s, gg_error *err)
   }
   if (!m->bath.on || m->shear_rate != 0 || gg_model_is_injected(m)) return GG_OK;
   if (drag > 0 && noise == 0)
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "bath.temperature: 0 without shear: the gas only cools; give a temperature above 0, or flow: %s",
-        gg_flow_of(GG_USF)->word);
+    return GG_REFUSE(err,
+                     "bath.temperature: 0 without shear: the gas only cools; give a temperature above 0, or flow: %s",
+                     gg_flow_of(GG_USF)->word);
   if (drag <= 0 && m->elastic)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "key '%s': collisions of this scene lose no energy, so that it heats up for ever",
-                        gg_scene_strength_of(s->thermostat)->key);
+    return GG_REFUSE(err, "key '%s': collisions of this scene lose no energy, so that it heats up for ever",
+                     gg_scene_strength_of(s->thermostat)->key);
   return GG_OK;
 }
 
@@ -206,15 +201,13 @@ static gg_status check_ridges(const gg_model *m, const gg_scene *s, gg_error *er
   const double d = s->species[0].diameter, length = m->box[0] * d;
   if (s->walls.ridges == 0) return GG_OK;
   if ((gg_flow_has_moving_walls(s->flow) && s->walls.speed != 0) || s->walls.ridges < 0.1 * d)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
-                        s->walls.ridges);
+    return GG_REFUSE(err, "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
+                     s->walls.ridges);
   if (s->walls.ridges > 2 * length)
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "walls.ridges: %g in a box that is %.4g long along x; allowed: up to %.4g, of which one is made that "
-        "is as wide as the box",
-        s->walls.ridges, length, 2 * length);
+    return GG_REFUSE(err,
+                     "walls.ridges: %g in a box that is %.4g long along x; allowed: up to %.4g, of which one is made "
+                     "that is as wide as the box",
+                     s->walls.ridges, length, 2 * length);
   return GG_OK;
 }
 
@@ -270,14 +263,14 @@ static void set_start(gg_model *m, const gg_scene *s)
 
 static gg_status make(const gg_scene *s, gg_engine_kind engine, bool counted, gg_model *m, gg_error *err)
 {
-  if (s->phi < 0) return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
+  if (s->phi < 0) return GG_REFUSE(err, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   GG_TRY(check_scales(s, err));
   *m = (gg_model){.flow = s->flow, .thermostat = s->thermostat, .extension = s->extension};
   GG_TRY(set_law(m, s, err));
   m->linear_response = gg_flow_of(s->flow)->linear_response;
   if (m->law.name && m->linear_response)
-    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
-                        gg_flow_of(s->flow)->word, m->law.name);
+    return GG_REFUSE(err, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
+                     gg_flow_of(s->flow)->word, m->law.name);
   m->ensemble = gg_common_engine_of((int)engine)->ensemble;
   m->wave = gg_scene_wave(s);
   m->homogeneous = m->ensemble && !gg_flow_is_walled(s->flow) && m->wave == 0;

@@ -40,11 +40,10 @@ gg_status gg_scene_check_shear_rate(const gg_scene *changed, gg_error *err)
 {
   const double most = 1000, unit = gg_scene_clock_rate(changed), rate = changed->shear.rate, size = fabs(rate);
   const bool small = size < unit / most * (1 - 1e-12), any_sign = changed->flow == GG_USF;
-  if (*changed->shear.formula) return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_rate': a formula is for the start");
+  if (*changed->shear.formula) return GG_REFUSE(err, "key 'shear_rate': a formula is for the start");
   if (size <= unit * most * (1 + 1e-12) && (rate == 0 || !small) && (any_sign || rate > 0)) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "key 'shear_rate': %g is not allowed on the way from %g; allowed: from %g to %g%s", rate, unit,
-                      unit / most, unit * most, any_sign ? ", such a rate below 0, and 0" : "");
+  return GG_REFUSE(err, "key 'shear_rate': %g is not allowed on the way from %g; allowed: from %g to %g%s", rate, unit,
+                   unit / most, unit * most, any_sign ? ", such a rate below 0, and 0" : "");
 }
 
 double gg_scene_strain(const gg_scene *scene, double time)

@@ -6,26 +6,6 @@
 #include "scene/ensemble_size.h"
 #include "scene/fields.h"
 
-/* How the value of a key stands in memory, and so in an archive. */
-static const struct {
-  gg_item_type type;
-  size_t count;
-} kept[] = {
-    [GG_FIELD_NUMBER] = {GG_ITEM_F64, 1},
-    [GG_FIELD_INTEGER] = {GG_ITEM_I64, 1},
-    [GG_FIELD_CHOICE] = {GG_ITEM_U8, sizeof(int)},
-    [GG_FIELD_SET] = {GG_ITEM_U8, sizeof(unsigned)},
-    [GG_FIELD_PAIRS] = {GG_ITEM_F64, GG_PAIRS},
-    [GG_FIELD_ERRORS] = {GG_ITEM_F64, GG_MAX_UNTIL},
-    [GG_FIELD_VECTOR] = {GG_ITEM_F64, 3},
-    [GG_FIELD_LIST] = {GG_ITEM_F64, GG_LOCAL_DENSITIES},
-    [GG_FIELD_RATE] = {GG_ITEM_U8, sizeof(double) + GG_FORMULA_TEXT},
-    [GG_FIELD_FILE] = {GG_ITEM_U8, GG_FILE_NAME},
-    [GG_FIELD_CHANGES] = {GG_ITEM_U8, sizeof(gg_change) * GG_MAX_CHANGES},
-    [GG_FIELD_ENDS] = {GG_ITEM_F64, 2},
-    [GG_FIELD_SPECIES] = {GG_ITEM_F64, GG_MAX_SPECIES *(sizeof(gg_species) / sizeof(double))},
-};
-
 static const char number_of_species[] = "scene/species.n", extension_item[] = "scene/extension";
 static const char ensemble_item[] = "scene/chosen_for", raised_item[] = "scene/contact_time_raised",
                   clock_item[] = "scene/clock_rate", laws_item[] = "scene/by_speed";
@@ -44,7 +24,8 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     const char *at = (const char *)scene + f->offset;
     if (!f->may_change)
-      GG_TRY(gg_base_archive_put(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
+      GG_TRY(gg_base_archive_put(a, item_of(f, name), gg_scene_kinds[f->type].item, at, gg_scene_kinds[f->type].count,
+                                 err));
   }
   GG_TRY(gg_base_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
   const double chosen_for = gg_scene_ensemble_size_error(scene);
@@ -62,14 +43,13 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
 /* A value as it stands in scenes, lists without brackets: "md", "rheology, cells", "auto", 0.9, "1, 1, 2". */
 static void show(const gg_field *f, const gg_scene *scene, char *text, size_t size)
 {
-  json_t *value = gg_scene_field_json(f, scene, scene);
+  json_auto_t *value = gg_scene_field_json(f, scene, scene);
   gg_scene_flow_style_text(value, text, size);
   const size_t length = strlen(text);
   if (json_is_array(value) && text[length - 1] == ']') {
     memmove(text, text + 1, length);
     text[length - 2] = '\0';
   }
-  json_decref(value);
 }
 
 static gg_status reject(const char *key, const char *there, const char *here, gg_error *err)
@@ -77,9 +57,18 @@ static gg_status reject(const char *key, const char *there, const char *here, gg
   char changeable[320] = "";
   for (const gg_field *f = gg_scene_fields; f->key; f++)
     if (f->may_change) gg_base_text_append(changeable, sizeof changeable, "%s%s", *changeable ? ", " : "", f->key);
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key,
-                      there, here, changeable);
+  return GG_REFUSE(err, "the checkpoint is of another run: %s differs (there %s, here %s); only %s may change", key,
+                   there, here, changeable);
+}
+
+/* Whether the values of a field are the same in memory; of files that are read, which may have moved, the names. */
+static bool is_same(const gg_field *f, const char *there, const char *here)
+{
+  if (!f->reads)
+    return memcmp(there, here,
+                  gg_scene_kinds[f->type].count * gg_base_archive_item_size(gg_scene_kinds[f->type].item)) == 0;
+  const char *one = strrchr(there, '/'), *two = strrchr(here, '/');
+  return strcmp(one ? one + 1 : there, two ? two + 1 : here) == 0;
 }
 
 /* The value of one key, or one member of it; `name` is what a message calls it. */
@@ -88,10 +77,9 @@ static gg_status same(const char *key, const char *name, const gg_scene *there, 
   gg_field f;
   char one[256] = "", two[256] = "";
   if (gg_scene_key_find(key, GG_MAX_SPECIES, &f) < 0) return GG_OK;
-  const size_t bytes = kept[f.type].count * gg_base_archive_item_size(kept[f.type].type);
   const char *law = gg_scene_field_law(&f, there, 0), *law_here = gg_scene_field_law(&f, here, 0);
   const bool laws_differ = law && law_here ? strcmp(law, law_here) != 0 : law != law_here;
-  if (!laws_differ && memcmp((const char *)there + f.offset, (const char *)here + f.offset, bytes) == 0) return GG_OK;
+  if (!laws_differ && is_same(&f, (const char *)there + f.offset, (const char *)here + f.offset)) return GG_OK;
   show(&f, there, one, sizeof one);
   show(&f, here, two, sizeof two);
   return reject(name, one, two, err);
@@ -130,11 +118,10 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
   GG_TRY(gg_base_archive_get(a, extension_item, GG_ITEM_U8, there, sizeof there, err));
   there[SIGNATURE - 1] = 0;
   if (strcmp(here, there) == 0) return GG_OK;
-  return gg_base_fail(
-      err, GG_BAD_INPUT,
-      "the run was extended by a program (%s), and this scene has %s: register the same law and observables "
-      "with the scene before it is resumed",
-      *there ? there : "nothing of its own", *here ? here : "nothing of its own");
+  return GG_REFUSE(err,
+                   "the run was extended by a program (%s), and this scene has %s: register the same law and "
+                   "observables with the scene before it is resumed",
+                   *there ? there : "nothing of its own", *here ? here : "nothing of its own");
 }
 
 gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)
@@ -166,7 +153,10 @@ gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *a, 
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     char *at = (char *)&there + f->offset;
     if (f->may_change) continue;
-    GG_TRY(gg_base_archive_get(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
+    if (f->reads && !gg_base_archive_find(a, item_of(f, name))) continue; /* of an earlier build */
+    GG_TRY(
+        gg_base_archive_get(a, item_of(f, name), gg_scene_kinds[f->type].item, at, gg_scene_kinds[f->type].count, err));
+    if (f->reads) at[GG_FILE_NAME - 1] = '\0';
     GG_TRY(same_value(f, &there, scene, err));
   }
   return GG_OK;

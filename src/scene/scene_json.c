@@ -285,10 +285,9 @@ char *gg_scene_yaml(const gg_scene *scene)
   char *text = NULL;
   FILE *out = gg_base_memory_stream_open(&text);
   if (!out) return NULL;
-  json_t *root = gg_scene_json(scene);
+  json_auto_t *root = gg_scene_json(scene);
   if (root) gg_scene_yaml_print(out, root);
   bool whole = root && !ferror(out);
-  json_decref(root);
   if (gg_base_memory_stream_close(out, &text) && whole) return text;
   free(text);
   return NULL;

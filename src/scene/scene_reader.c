@@ -203,8 +203,7 @@ static gg_status read_text(int fd, const char *path, char *text, size_t *length,
     *length += (size_t)got;
   }
   if (*length >= 8 && memcmp(text, "\x89HDF\r\n\x1a\n", 8) == 0)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: is an HDF5 file, not a scene (for a result: graingas info, graingas plot)", path);
+    return GG_REFUSE(err, "%s: is an HDF5 file, not a scene (for a result: graingas info, graingas plot)", path);
   return GG_OK;
 }
 
@@ -213,27 +212,14 @@ gg_status gg_scene_file_text(const char *path, char **out, size_t *length, gg_er
   bool standard = strcmp(path, "-") == 0;
   int fd = standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  char *text = gg_base_array_new(MAX_BYTES + 1, 1, err); /* ends with a zero */
+  GG_FREED char *text = gg_base_array_new(MAX_BYTES + 1, 1, err); /* ends with a zero */
   gg_status status = text ? read_text(fd, path, text, length, err) : GG_FAILED;
   close(fd);
-  if (status == GG_OK)
-    *out = text;
-  else
-    free(text);
+  if (status == GG_OK) GG_HAND_OVER(out, text);
   return status;
 }
 
 const char *gg_scene_file_name(const char *path)
 {
   return strcmp(path, "-") == 0 ? "standard input" : path;
-}
-
-gg_status gg_scene_read_file(gg_scene *scene, const char *path, gg_error *err)
-{
-  char *text;
-  size_t length;
-  GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  gg_status status = gg_scene_read(scene, text, length, gg_scene_file_name(path), err);
-  free(text);
-  return status;
 }

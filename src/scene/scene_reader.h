@@ -12,9 +12,8 @@ enum { GG_SCENE_MAX_BYTES = 1 << 20 };
 
 /* Read YAML text into a scene, which begins as gg_scene_defaults; `name` stands for the file in messages. */
 gg_status gg_scene_read(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err);
-/* "-": standard input. */
-gg_status gg_scene_read_file(gg_scene *scene, const char *path, gg_error *err);
-/* The text of a file, at most a byte more than a scene may have; to be freed. And its name in messages. */
+/* The text of a file ("-": standard input), at most a byte more than a scene may have; to be freed. And its name in
+ * messages. */
 gg_status gg_scene_file_text(const char *path, char **text, size_t *length, gg_error *err);
 const char *gg_scene_file_name(const char *path);
 
@@ -43,9 +42,9 @@ gg_status gg_scene_with_value(gg_scene_reader *r, const char *key, const char *v
 /* A whole scene; `key` is "". */
 gg_status gg_scene_read_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
 
-/* speed_table.c: append a row to a table of the normal speed; append the rows of a file, two columns separated by blanks
- * or a comma, without lines that begin with # and a first line of words. A relative path is relative to the folder of
- * the file `beside` (NULL: the current one). */
+/* speed_table.c: append a row to a table of the normal speed; append the rows of a file, two columns separated by
+ * blanks or a comma, without lines that begin with # and a first line of words. A relative path is relative to the
+ * folder of the file `beside` (NULL: the current one). */
 gg_status gg_scene_speed_table_add(double speed, double value, char text[GG_LAWS_TEXT], gg_error *err);
 gg_status gg_scene_speed_table_read(const char *file, const char *beside, char text[GG_LAWS_TEXT], gg_error *err);
 

@@ -55,23 +55,21 @@ static gg_status check_steps(const gg_scene *s, gg_error *err)
   const double periods = s->run.duration / s->shear.period;
   const bool whole = fabs(periods - round(periods)) <= 1e-9 * periods;
   if (s->shear.period != GG_AUTO && !(whole && periods >= 1.5))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "key 'shear_period': run.duration %g has %.6g of them; allowed: a whole number, 2 or more",
-                        s->run.duration, periods);
+    return GG_REFUSE(err, "key 'shear_period': run.duration %g has %.6g of them; allowed: a whole number, 2 or more",
+                     s->run.duration, periods);
   if (s->shear.period != GG_AUTO && s->shear.steps < LEAST_STEPS)
-    return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_steps': %lld in shear_period; allowed: from %d, for harmonics",
-                        (long long)s->shear.steps, LEAST_STEPS);
+    return GG_REFUSE(err, "key 'shear_steps': %lld in shear_period; allowed: from %d, for harmonics",
+                     (long long)s->shear.steps, LEAST_STEPS);
   if (gg_scene_shear_periods(s) * (double)s->shear.steps <= MOST_STEPS) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_steps': %g steps in the run; allowed: up to %d",
-                      gg_scene_shear_periods(s) * (double)s->shear.steps, MOST_STEPS);
+  return GG_REFUSE(err, "key 'shear_steps': %g steps in the run; allowed: up to %d",
+                   gg_scene_shear_periods(s) * (double)s->shear.steps, MOST_STEPS);
 }
 
 gg_status gg_scene_shear_finish(gg_scene *s, gg_error *err)
 {
   const gg_expression e = formula_of(s);
   if (s->flow != GG_USF || !gg_scene_is_followed(s))
-    return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_rate': a formula needs flow: %s and run.duration",
-                        gg_flow_of(GG_USF)->word);
+    return GG_REFUSE(err, "key 'shear_rate': a formula needs flow: %s and run.duration", gg_flow_of(GG_USF)->word);
   GG_TRY(check_steps(s, err));
   double most = 0;
   for (int64_t k = 0; k < gg_scene_shear_steps(s) && !isnan(most); k++) {
@@ -80,8 +78,8 @@ gg_status gg_scene_shear_finish(gg_scene *s, gg_error *err)
     most = isnan(largest) ? NAN : fmax(most, largest);
   }
   if (!(most > 0 && most < 1e30))
-    return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_rate': '%s' is %s", s->shear.formula,
-                        most == 0 ? "0 all the time" : "infinite or not a number at some time");
+    return GG_REFUSE(err, "key 'shear_rate': '%s' is %s", s->shear.formula,
+                     most == 0 ? "0 all the time" : "infinite or not a number at some time");
   s->shear.rate = most;
   return GG_OK;
 }

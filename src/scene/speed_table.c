@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/memory.h"
 #include "scene/scene_reader.h"
 
 gg_status gg_scene_speed_table_add(double speed, double value, char text[GG_LAWS_TEXT], gg_error *err)
@@ -16,7 +17,7 @@ gg_status gg_scene_speed_table_add(double speed, double value, char text[GG_LAWS
   gg_io_number_format(speed, v), gg_io_number_format(value, x);
   const int added = snprintf(text + used, GG_LAWS_TEXT - used, "%s%s %s;", used ? "" : "table ", v, x);
   if (added < (int)(GG_LAWS_TEXT - used)) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "a table has at most %d rows, and %d characters", GG_LAW_ROWS, GG_LAWS_TEXT);
+  return GG_REFUSE(err, "a table has at most %d rows, and %d characters", GG_LAW_ROWS, GG_LAWS_TEXT);
 }
 
 static gg_status read_rows(FILE *in, const char *path, char text[GG_LAWS_TEXT], gg_error *err)
@@ -27,10 +28,10 @@ static gg_status read_rows(FILE *in, const char *path, char text[GG_LAWS_TEXT], 
     const char *at = line + strspn(line, " \t\r\n");
     if (!*at || *at == '#' || (!*text && isalpha((unsigned char)*at))) continue;
     if (sscanf(at, "%lf%7[ \t,]%lf %c", &speed, separator, &value, &rest) != 3)
-      return gg_base_fail(err, GG_BAD_INPUT, "%s:%d: two numbers are expected, a speed and the value there", path, n);
+      return GG_REFUSE(err, "%s:%d: two numbers are expected, a speed and the value there", path, n);
     GG_TRY(gg_scene_speed_table_add(speed, value, text, err));
   }
-  return *text ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "%s: the table has no row", path);
+  return *text ? GG_OK : GG_REFUSE(err, "%s: the table has no row", path);
 }
 
 gg_status gg_scene_speed_table_read(const char *file, const char *beside, char text[GG_LAWS_TEXT], gg_error *err)
@@ -43,9 +44,7 @@ gg_status gg_scene_speed_table_read(const char *file, const char *beside, char t
     return gg_base_fail(err, GG_BAD_FILE, "the path of the table is too long");
   if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block the reader */
     return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
-  FILE *in = fopen(path, "r");
-  if (!in) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  const gg_status status = read_rows(in, path, text, err);
-  fclose(in);
-  return status;
+  GG_CLOSED FILE *in = fopen(path, "r");
+  return in ? read_rows(in, path, text, err)
+            : gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
 }

@@ -150,6 +150,8 @@ typedef struct input {
   const yaml_node_t *node;
 } input;
 
+#define REJECT(at, ...) gg_scene_reject(in->r, at, in->key, __VA_ARGS__)
+
 static input at(const input *in, const yaml_node_t *node)
 {
   return (input){in->r, in->f, in->key, node};
@@ -215,7 +217,7 @@ static gg_status reject_value(const input *in)
   if (has_decimal_comma(text)) likely = "a decimal point";
   if (underflows(text) && in->f->min <= 0 && !in->f->above_min) likely = "0";
   if (likely) snprintf(hint, sizeof hint, " (did you mean %s?)", likely);
-  return gg_scene_reject(in->r, in->node, in->key, "%s is not allowed%s; allowed: %s", shown, hint, allowed);
+  return REJECT(in->node, "%s is not allowed%s; allowed: %s", shown, hint, allowed);
 }
 
 static bool parse_number(const char *text, double *value)
@@ -256,9 +258,9 @@ static gg_status read_rate(const input *in, double *value)
     return *value = x, *formula = '\0', GG_OK;
   }
   if (gg_common_expression_parse(&e, text, (const char *const[]){"t", NULL}, &why) != GG_OK)
-    return gg_scene_reject(in->r, in->node, in->key, "neither a number nor a formula of t: %s", why.message);
+    return REJECT(in->node, "neither a number nor a formula of t: %s", why.message);
   if (strlen(text) >= GG_FORMULA_TEXT)
-    return gg_scene_reject(in->r, in->node, in->key, "a formula has at most %d characters", GG_FORMULA_TEXT - 1);
+    return REJECT(in->node, "a formula has at most %d characters", GG_FORMULA_TEXT - 1);
   return strcpy(formula, text), GG_OK;
 }
 
@@ -291,8 +293,7 @@ static gg_status read_choice(const input *in, void *value)
 static gg_status read_set(const input *in, unsigned *value)
 {
   const gg_word alone = find_word(in);
-  if (alone.name)
-    return gg_scene_reject(in->r, in->node, in->key, "is a list, also of one: %s: [%s]", in->f->key, alone.name);
+  if (alone.name) return REJECT(in->node, "is a list, also of one: %s: [%s]", in->f->key, alone.name);
   if (in->node->type != YAML_SEQUENCE_NODE) return reject_value(in);
   unsigned set = 0;
   for (ptrdiff_t i = 0; i < length_of(in->node); i++) {
@@ -310,9 +311,8 @@ static gg_status reject_quantity(const input *in, const gg_scene_entry *e)
   gg_nearest nearest = {.word = e->word ? e->word : ""};
   for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++) gg_base_spelling_try(&nearest, gg_common_quantity_name(q));
   gg_scene_quote(nearest.word, word, sizeof word);
-  if (nearest.best)
-    return gg_scene_reject(in->r, e->name, in->key, "no quantity '%s'; did you mean '%s'?", word, nearest.best);
-  return gg_scene_reject(in->r, e->name, in->key, "no quantity '%s'; `graingas info SCENE.yaml` lists them", word);
+  if (nearest.best) return REJECT(e->name, "no quantity '%s'; did you mean '%s'?", word, nearest.best);
+  return REJECT(e->name, "no quantity '%s'; `graingas info SCENE.yaml` lists them", word);
 }
 
 /* Quantities that are not in the map have no requested error. */
@@ -327,7 +327,7 @@ static gg_status read_errors(const input *in, double *value)
   for (gg_scene_entry e = {0}; !none && gg_scene_entry_next(in->r, in->node, &e);) {
     const gg_quantity q = e.word ? gg_common_quantity_find(e.word) : GG_N_QUANTITIES;
     if (q >= GG_N_QUANTITIES) return reject_quantity(in, &e);
-    if (asked[q] > 0) return gg_scene_reject(in->r, e.name, in->key, "names %s twice", e.word);
+    if (asked[q] > 0) return REJECT(e.name, "names %s twice", e.word);
     GG_TRY(read_number(&(input){in->r, &number, in->key, e.value}, &asked[q]));
   }
   memcpy(value, asked, sizeof asked);
@@ -345,7 +345,7 @@ static gg_status find_file(const input *in, const char *text, char *value)
   const bool found = *text != '/' && realpath(folder, whole);
   if (snprintf(value, GG_FILE_NAME, "%s%s%s", found ? whole : "", found ? "/" : "", text) < GG_FILE_NAME) return GG_OK;
   *value = '\0';
-  return gg_scene_reject(in->r, in->node, in->key, "a path of more than %d characters", GG_FILE_NAME - 1);
+  return REJECT(in->node, "a path of more than %d characters", GG_FILE_NAME - 1);
 }
 
 static gg_status read_file_name(const input *in, char *value)
@@ -392,7 +392,7 @@ static gg_status read_list(const input *in, double *value)
   for (int i = 0; i < GG_LOCAL_DENSITIES; i++)
     for (int j = 0; j < i; j++)
       if (x[i] > 0 && fabs(x[i] - x[j]) < 1e-8)
-        return gg_scene_reject(in->r, in->node, in->key, "has %g twice; allowed: different numbers", x[i]);
+        return REJECT(in->node, "has %g twice; allowed: different numbers", x[i]);
   return memcpy(value, x, sizeof x), GG_OK;
 }
 
@@ -400,10 +400,9 @@ static gg_status read_list(const input *in, double *value)
 static gg_status keep_change(const char *key, const gg_field *member, const gg_scene *scene, gg_change *change,
                              gg_error *err)
 {
-  json_t *value = gg_scene_field_json(member, scene, scene);
+  json_auto_t *value = gg_scene_field_json(member, scene, scene);
   snprintf(change->key, sizeof change->key, "%s", key);
   gg_scene_flow_style_text(value, change->value, sizeof change->value);
-  json_decref(value);
   return value ? GG_OK : gg_base_out_of_memory(err);
 }
 
@@ -415,8 +414,7 @@ static gg_status read_change(const input *in, const gg_scene_entry *e, gg_change
   if (!e->word || gg_scene_key_find(e->word, GG_MAX_SPECIES, &member) < 0 || !member.on_the_way) {
     char word[61];
     gg_scene_quote(e->word ? e->word : "", word, sizeof word);
-    return gg_scene_reject(in->r, e->name, in->key, "'%s' cannot change on the way; allowed: at, " GG_PROTOCOL_KEYS,
-                           word);
+    return REJECT(e->name, "'%s' cannot change on the way; allowed: at, " GG_PROTOCOL_KEYS, word);
   }
   if (!value || strlen(value) >= GG_CHANGE_TEXT || strlen(e->word) >= GG_CHANGE_TEXT)
     return gg_scene_reject(in->r, e->value, e->word, "on the way it takes one number or word");
@@ -436,24 +434,21 @@ static gg_status read_changes_at(const input *in, gg_change *change, int *n)
   if (in->node->type != YAML_MAPPING_NODE) return reject_value(in);
   for (gg_scene_entry e = {0}; gg_scene_entry_next(in->r, in->node, &e);) {
     if (e.word && strcmp(e.word, "at") == 0) {
-      if (at > 0) return gg_scene_reject(in->r, e.name, in->key, "at is given twice in one change");
+      if (at > 0) return REJECT(e.name, "at is given twice in one change");
       GG_TRY(read_number(&(input){in->r, &at_field, "at", e.value}, &at));
     } else {
-      if (*n == GG_MAX_CHANGES)
-        return gg_scene_reject(in->r, e.name, in->key, "takes at most %d changes", GG_MAX_CHANGES);
+      if (*n == GG_MAX_CHANGES) return REJECT(e.name, "takes at most %d changes", GG_MAX_CHANGES);
       GG_TRY(read_change(in, &e, &change[(*n)++]));
     }
   }
-  if (at == 0 || *n == first)
-    return gg_scene_reject(in->r, in->node, in->key, "a change needs a time and a key: {at: 5, bath.temperature: 2}");
+  if (at == 0 || *n == first) return REJECT(in->node, "a change needs a time and a key: {at: 5, bath.temperature: 2}");
   if (first > 0 && at < change[first - 1].at)
-    return gg_scene_reject(in->r, in->node, in->key, "at: %g comes after at: %g; give changes in the order of times",
-                           at, change[first - 1].at);
+    return REJECT(in->node, "at: %g comes after at: %g; give changes in the order of times", at, change[first - 1].at);
   for (int k = first; k < *n; k++) {
     change[k].at = at;
     for (int j = 0; j < k; j++)
       if (change[j].at == at && strcmp(change[j].key, change[k].key) == 0)
-        return gg_scene_reject(in->r, in->node, in->key, "changes %s twice at: %g", change[k].key, at);
+        return REJECT(in->node, "changes %s twice at: %g", change[k].key, at);
   }
   return GG_OK;
 }
@@ -488,9 +483,8 @@ static gg_status check_pairs(const input *in, const bool *given)
   char name[GG_PAIR_NAME];
   for (int p = 0; n <= GG_MAX_SPECIES && p < gg_pairs_of(n); p++)
     if (!given[p])
-      return gg_scene_reject(in->r, in->node, in->key,
-                             "lacks the pair %s: name every pair of the %d species, or give `other`",
-                             gg_common_pair_name(p, name), n);
+      return REJECT(in->node, "lacks the pair %s: name every pair of the %d species, or give `other`",
+                    gg_common_pair_name(p, name), n);
   return GG_OK;
 }
 
@@ -514,18 +508,17 @@ static gg_status read_table(const input *in, const yaml_node_t *table, char law[
   gg_error why;
   const char *file = gg_scene_scalar(table);
   if (file && gg_scene_speed_table_read(file, in->r->lines ? in->r->name : NULL, law, &why) != GG_OK)
-    return gg_scene_reject(in->r, table, in->key, "%.600s", why.message);
+    return REJECT(table, "%.600s", why.message);
   for (ptrdiff_t i = 0; !file && i < length_of(table); i++) {
     static const gg_field number = {.type = GG_FIELD_NUMBER, .min = -1e30, .max = 1e30};
     const yaml_node_t *row = item_of(in, table->data.sequence.items.start[i]);
     double at[2];
-    if (length_of(row) != 2) return gg_scene_reject(in->r, row, in->key, "a row of a table is [speed, value]");
+    if (length_of(row) != 2) return REJECT(row, "a row of a table is [speed, value]");
     for (int k = 0; k < 2; k++)
       GG_TRY(read_number(&(input){in->r, &number, in->key, item_of(in, row->data.sequence.items.start[k])}, &at[k]));
-    if (gg_scene_speed_table_add(at[0], at[1], law, &why) != GG_OK)
-      return gg_scene_reject(in->r, row, in->key, "%s", why.message);
+    if (gg_scene_speed_table_add(at[0], at[1], law, &why) != GG_OK) return REJECT(row, "%s", why.message);
   }
-  return *law ? GG_OK : gg_scene_reject(in->r, table, in->key, "a table is a file, or rows [[speed, value], ...]");
+  return *law ? GG_OK : REJECT(table, "a table is a file, or rows [[speed, value], ...]");
 }
 
 /* A law that is the same at all speeds is a number, within its limits. */
@@ -536,7 +529,7 @@ static gg_status take_law(const input *in, coefficient *c)
   bool above = false, below = false;
   gg_status status = gg_common_speed_law_parse(&law, (gg_contact_coefficient)(in->f->by_speed - 1), c->law, &why);
   if (status == GG_OK) status = gg_common_speed_law_check(&law, &above, &below, &why);
-  if (status != GG_OK) return gg_scene_reject(in->r, in->node, in->key, "%.600s", why.message);
+  if (status != GG_OK) return REJECT(in->node, "%.600s", why.message);
   c->x = fmin(gg_common_speed_law_value(&law, 1, NULL), in->f->max);
   if (!gg_common_speed_law_is_constant(&law)) return GG_OK;
   uint64_t branch;
@@ -558,7 +551,7 @@ static gg_status read_coefficient(const input *in, coefficient *c)
   if (!table && !formula) return read_number(in, &c->x);
   if (table) GG_TRY(read_table(in, table, c->law));
   if (formula && snprintf(c->law, GG_LAWS_TEXT, "%s", text) >= GG_LAWS_TEXT)
-    return gg_scene_reject(in->r, in->node, in->key, "the formula has more than %d characters", GG_LAWS_TEXT);
+    return REJECT(in->node, "the formula has more than %d characters", GG_LAWS_TEXT);
   return take_law(in, c);
 }
 
@@ -571,7 +564,7 @@ static gg_status put(const input *in, const coefficient *c, double *value, int p
   gg_speed_laws *laws = &in->r->scene->collision.by_speed;
   if (gg_common_speed_laws_set(laws, (gg_contact_coefficient)(in->f->by_speed - 1), gg_scene_field_pair(in->f) + p,
                                *c->law ? c->law : NULL, &why) != GG_OK)
-    return gg_scene_reject(in->r, in->node, in->key, "%s", why.message);
+    return REJECT(in->node, "%s", why.message);
   return GG_OK;
 }
 
@@ -586,8 +579,7 @@ static gg_status read_pairs(const input *in, double *value)
     bool rest = e.word && strcmp(e.word, "other") == 0;
     int p = e.word && !rest ? gg_common_pair_find(e.word) : -1;
     if ((!rest && p < 0) || (rest ? others : given[p]))
-      return gg_scene_reject(in->r, e.name, in->key,
-                             "a map by pairs of species has keys like 11, 12 or 1-10, or other, each pair once");
+      return REJECT(e.name, "a map by pairs of species has keys like 11, 12 or 1-10, or other, each pair once");
     const input one = at(in, e.value);
     *(rest ? &others : &given[p]) = true;
     GG_TRY(read_coefficient(&one, rest ? &other : &c));
@@ -630,13 +622,12 @@ static gg_status read_species(const input *in)
   const ptrdiff_t n = length_of(in->node);
   gg_scene *scene = in->r->scene;
   if (n < 1 || n > GG_MAX_SPECIES)
-    return gg_scene_reject(in->r, in->node, in->key, "%td species are given; allowed: 1 to %d", n, GG_MAX_SPECIES);
+    return REJECT(in->node, "%td species are given; allowed: 1 to %d", n, GG_MAX_SPECIES);
   for (int i = 0; i < n; i++) {
     const yaml_node_t *map = item_of(in, in->node->data.sequence.items.start[i]);
     gg_species one = {1.0 / (double)n, 1, 1, 0.4, 1, 0};
     if (map->type != YAML_MAPPING_NODE)
-      return gg_scene_reject(in->r, map, in->key,
-                             "a species is a map with fraction, diameter, mass, inertia, drag and torque");
+      return REJECT(map, "a species is a map with fraction, diameter, mass, inertia, drag and torque");
     GG_TRY(gg_scene_read_map(in->r, in->key, map, gg_scene_species_fields, NULL, &one));
     scene->species[i] = one;
   }

@@ -143,8 +143,8 @@ static gg_status choose_rows(maps *m, gg_error *err)
   m->row[m->n_rows++] = (map_row){.method = "md", .engines = true};
   while (gg_sweep_next_word(&theories, word)) {
     if (!gg_sweep_point_table_has(m->view->table, word, NULL) && m->choice->theories)
-      return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
-    if (m->n_rows == MOST_ROWS) return gg_base_fail(err, GG_BAD_INPUT, "a map has at most %d theories", MOST_THEORIES);
+      return GG_REFUSE(err, "no point has a theory '%s'", word);
+    if (m->n_rows == MOST_ROWS) return GG_REFUSE(err, "a map has at most %d theories", MOST_THEORIES);
     if (gg_sweep_point_table_has(m->view->table, word, NULL)) memcpy(m->row[m->n_rows++].method, word, sizeof word);
   }
   return GG_OK;
@@ -159,15 +159,13 @@ static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const cha
   while (gg_sweep_next_word(&show, word)) {
     const gg_point_table *t = m->view->table;
     const bool has = gg_sweep_point_table_has(t, "md", word) || gg_sweep_point_table_has(t, "dsmc", word);
-    if (!has && m->choice->show) return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
+    if (!has && m->choice->show) return GG_REFUSE(err, "no point has a quantity '%s'", word);
     if (!has) continue;
     GG_TRY(gg_stop_check(m->choice->stop, err));
-    char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
+    GG_FREED char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
     if (!picture) return gg_base_out_of_memory(err);
-    gg_status status = draw_quantity(m, word, picture, err);
-    if (status == GG_OK && drawn) drawn(context, picture, word);
-    free(picture);
-    GG_TRY(status);
+    GG_TRY(draw_quantity(m, word, picture, err));
+    if (drawn) drawn(context, picture, word);
   }
   return GG_OK;
 }
@@ -177,19 +175,13 @@ gg_status gg_sweep_deviation_maps_draw(const gg_grid_view *v, const gg_map_choic
                                        void *context, gg_error *err)
 {
   if (v->x.n > MOST_CELLS || v->y.n > MOST_CELLS || v->n_panels > MOST_COLUMNS)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "no maps: they have room for %d values of two keys and %d combinations of the others",
-                        MOST_CELLS, MOST_COLUMNS);
-  maps *m = gg_base_array_new(1, sizeof *m, err);
-  if (!m) return GG_FAILED;
-  *m = (maps){.view = v, .choice = choice};
-  m->cell = gg_base_array_new(MOST_ROWS * v->n_panels * v->x.n * v->y.n, sizeof *m->cell, err);
-  gg_status status = m->cell ? choose_rows(m, err) : GG_FAILED;
-  if (status == GG_OK) {
-    name_axes(m);
-    status = draw_all(m, drawn, context, err);
-  }
-  free(m->cell);
-  free(m);
-  return status;
+    return GG_REFUSE(err, "no maps: they have room for %d values of two keys and %d combinations of the others",
+                     MOST_CELLS, MOST_COLUMNS);
+  GG_FREED maps *m = gg_base_array_new(1, sizeof *m, err);
+  GG_FREED gg_heat_cell *cell = gg_base_array_new(MOST_ROWS * v->n_panels * v->x.n * v->y.n, sizeof *cell, err);
+  if (!m || !cell) return GG_FAILED;
+  *m = (maps){.view = v, .choice = choice, .cell = cell};
+  GG_TRY(choose_rows(m, err));
+  name_axes(m);
+  return draw_all(m, drawn, context, err);
 }

@@ -56,17 +56,16 @@ gg_point_state gg_sweep_point_status(const char *folder, uint64_t id)
 
 static gg_point_file check_file(const char *path, bool any_build)
 {
-  gg_h5_in h;
+  GG_CLEARED(gg_h5_in_close) gg_h5_in h = {.fd = -1};
   gg_point_file found = GG_POINT_FILE_GOOD;
   const unsigned before = gg_base_memory_failures();
   gg_h5_open(&h, path, false);
-  char *build = !h.failed && gg_h5_exists(&h, "/graingas/build") ? gg_h5_read_text(&h, "/graingas/build") : NULL;
+  GG_FREED char *build =
+      !h.failed && gg_h5_exists(&h, "/graingas/build") ? gg_h5_read_text(&h, "/graingas/build") : NULL;
   if (h.failed)
     found = GG_POINT_FILE_DAMAGED;
   else if (!any_build && (!build || strcmp(build, gg_base_build_identity) != 0))
     found = GG_POINT_FILE_OTHER_BUILD;
-  gg_h5_in_close(&h);
-  free(build);
   return gg_base_memory_failures() == before ? found : GG_POINT_FILE_GOOD;
 }
 
@@ -109,7 +108,7 @@ gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_erro
 {
   struct stat about;
   enum { LONGEST_NAME = 64 }; /* of a file in the folder */
-  if (!*folder) return gg_base_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
+  if (!*folder) return GG_REFUSE(err, "the folder's name is empty: %s", holds);
   if (strlen(folder) + LONGEST_NAME > PATH_MAX) return gg_io_path_write_error(folder, strerror(ENAMETOOLONG), err);
   if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_io_path_write_error(folder, strerror(errno), err);
   if (stat(folder, &about) != 0) return gg_io_path_write_error(folder, strerror(errno), err);

@@ -9,13 +9,6 @@
 
 enum { LONG_VALUE = 20 }; /* a longer value is cut to what it differs in */
 
-size_t gg_sweep_line_group_of(const gg_sweep *sweep, size_t i, size_t varied)
-{
-  size_t stride = 1;
-  for (size_t f = sweep->n_varied - 1; f > varied; f--) stride *= sweep->varied[f].n;
-  return i - gg_sweep_row(sweep, i, varied) * stride;
-}
-
 /* Bytes that all values of a key begin with, up to the beginning of a member of a list or a map. */
 static size_t shared_head(const gg_varied *v, size_t k)
 {
@@ -60,7 +53,7 @@ static void add_value(char *text, const gg_varied *v, size_t row, size_t k)
   gg_base_text_append(text, GG_COMBINATION_NAME, "%s%s%s", head ? "…" : "", plain, tail ? "…" : "");
 }
 
-void gg_sweep_line_group_name(const gg_sweep *sweep, size_t combination, size_t varied, char text[GG_COMBINATION_NAME])
+void gg_sweep_line_group_name(const gg_sweep *sweep, size_t point, size_t varied, char text[GG_COMBINATION_NAME])
 {
   char symbol[64];
   *text = '\0';
@@ -69,7 +62,7 @@ void gg_sweep_line_group_name(const gg_sweep *sweep, size_t combination, size_t 
     for (size_t k = 0; f != varied && k < v->n_keys; k++) {
       gg_plot_chart_key(v->key[k], symbol, sizeof symbol, NULL);
       gg_base_text_append(text, GG_COMBINATION_NAME, "%s%s = ", *text ? ", " : "", symbol);
-      add_value(text, v, gg_sweep_row(sweep, combination, f), k);
+      add_value(text, v, gg_sweep_row(sweep, point, f), k);
     }
   }
 }

@@ -24,12 +24,10 @@ void gg_sweep_values_clear(gg_values *v)
 gg_status gg_sweep_values_add(gg_values *v, const char *text, gg_error *err)
 {
   if (v->n == GG_MOST_POINTS)
-    return gg_base_fail(err, GG_BAD_INPUT, "a key has more than %d values; a sweep has at most as many points",
-                        GG_MOST_POINTS);
+    return GG_REFUSE(err, "a key has more than %d values; a sweep has at most as many points", GG_MOST_POINTS);
   v->characters += strlen(text);
   if (v->characters > MOST_VALUE_CHARACTERS)
-    return gg_base_fail(err, GG_BAD_INPUT, "the values of a key have more than %d characters together",
-                        MOST_VALUE_CHARACTERS);
+    return GG_REFUSE(err, "the values of a key have more than %d characters together", MOST_VALUE_CHARACTERS);
   if (v->n == v->room) {
     size_t room = v->room ? 2 * v->room : 8;
     char **grown = realloc(v->text, room * sizeof *grown);
@@ -80,22 +78,20 @@ static gg_status add_range(gg_values *v, const char *text, bool *is, gg_error *e
     if (!is_number(at, length, &x[k])) return GG_OK;
     at += length;
     if (*at != (k < 2 ? ':' : '\0'))
-      return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': a range is first:last:step", v->key, text);
+      return GG_REFUSE(err, "key '%.60s': '%.60s': a range is first:last:step", v->key, text);
     at += k < 2;
   }
   *is = true;
   double steps = x[2] != 0 ? (x[1] - x[0]) / x[2] : -1;
   if (!(steps >= 0))
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step does not lead from the first to the last",
-                        v->key, text);
+    return GG_REFUSE(err, "key '%.60s': '%.60s': the step does not lead from the first to the last", v->key, text);
   const bool whole = x[0] == floor(x[0]) && x[2] == floor(x[2]);
   const double largest = fmax(fabs(x[0]), fabs(x[1]));
   if (whole ? largest >= 0x1p53 : fabs(x[2]) < 1e-11 * largest)
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the step is lost in the digits of the numbers",
-                        v->key, text);
+    return GG_REFUSE(err, "key '%.60s': '%.60s': the step is lost in the digits of the numbers", v->key, text);
   if (steps >= GG_MOST_POINTS)
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': these are %.0f values; a sweep has at most %d points",
-                        v->key, text, floor(steps) + 1, GG_MOST_POINTS);
+    return GG_REFUSE(err, "key '%.60s': '%.60s': these are %.0f values; a sweep has at most %d points", v->key, text,
+                     floor(steps) + 1, GG_MOST_POINTS);
   return add_steps(v, x[0], x[2], (size_t)(steps * (1 + 1e-12) + 1e-9) + 1, err);
 }
 
@@ -104,8 +100,7 @@ static gg_status take_span(gg_values *v, const char *text, bool *is, gg_error *e
   const char *dots = strstr(text, "..");
   *is = dots && is_number(text, (size_t)(dots - text), &v->low) && is_number(dots + 2, strlen(dots + 2), &v->high);
   if (!*is) return GG_OK;
-  if (!(v->low < v->high))
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': '%.60s': the lower end has to come first", v->key, text);
+  if (!(v->low < v->high)) return GG_REFUSE(err, "key '%.60s': '%.60s': the lower end has to come first", v->key, text);
   v->range = true;
   return GG_OK;
 }
@@ -115,7 +110,7 @@ static gg_status add_word(gg_values *v, const char *text, gg_error *err)
   bool is;
   GG_TRY(add_range(v, text, &is, err));
   if (is) return GG_OK;
-  if (!*text) return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': a value is missing", v->key);
+  if (!*text) return GG_REFUSE(err, "key '%.60s': a value is missing", v->key);
   return gg_sweep_values_add(v, text, err);
 }
 
@@ -144,10 +139,9 @@ gg_status gg_sweep_values_parse(gg_values *v, const char *text, gg_error *err)
     text += strspn(text, " ");
     size_t length = word_length(text), used = length;
     while (used && text[used - 1] == ' ') used--;
-    char *word = strndup(text, used);
-    gg_status status = word ? add_word(v, word, err) : gg_base_out_of_memory(err);
-    free(word);
-    if (status != GG_OK || !text[length]) return status;
+    GG_FREED char *word = strndup(text, used);
+    GG_TRY(word ? add_word(v, word, err) : gg_base_out_of_memory(err));
+    if (!text[length]) return GG_OK;
     text += length + 1;
   }
   return GG_OK;
@@ -193,14 +187,11 @@ bool gg_sweep_sets(const gg_sweep *sweep, const char *key)
 
 static gg_status check_new(const gg_sweep *sweep, const gg_varied *v, gg_error *err)
 {
-  if (sweep->n_varied == GG_MOST_VARIED)
-    return gg_base_fail(err, GG_BAD_INPUT, "more than %d keys are varied", GG_MOST_VARIED);
+  if (sweep->n_varied == GG_MOST_VARIED) return GG_REFUSE(err, "more than %d keys are varied", GG_MOST_VARIED);
   for (size_t k = 0; k < v->n_keys; k++) {
-    if (gg_sweep_varies(sweep, v->key[k]))
-      return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied twice", v->key[k]);
+    if (gg_sweep_varies(sweep, v->key[k])) return GG_REFUSE(err, "key '%.60s': is varied twice", v->key[k]);
     for (size_t j = 0; j < k; j++)
-      if (strcmp(v->key[j], v->key[k]) == 0)
-        return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied twice", v->key[k]);
+      if (strcmp(v->key[j], v->key[k]) == 0) return GG_REFUSE(err, "key '%.60s': is varied twice", v->key[k]);
   }
   return GG_OK;
 }
@@ -263,9 +254,8 @@ static gg_status draw_all(gg_varied *v, const gg_values *lists, uint64_t seed, g
       char *text = v->value[i * v->n_keys + k] = draw(&lists[k], &rng);
       if (!text) return gg_base_out_of_memory(err);
       if ((characters += strlen(text)) > MOST_DRAWN_CHARACTERS)
-        return gg_base_fail(err, GG_BAD_INPUT,
-                            "key 'vary.random': the values drawn have more than %d characters together",
-                            MOST_DRAWN_CHARACTERS);
+        return GG_REFUSE(err, "key 'vary.random': the values drawn have more than %d characters together",
+                         MOST_DRAWN_CHARACTERS);
     }
   }
   return GG_OK;

@@ -44,13 +44,11 @@ static uint64_t add_text(uint64_t sum, const char *text)
 
 static uint64_t add_field(uint64_t sum, const gg_field *f, const gg_scene *scene)
 {
-  json_t *value = gg_scene_field_json(f, scene, scene);
-  char *text = gg_io_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
-  sum = add_text(add_text(sum, f->key),
-                 text ? text : ""); /* no memory: the name of another point; the lack is recorded */
-  free(text);
-  json_decref(value);
-  return sum;
+  json_auto_t *value = gg_scene_field_json(f, scene, scene);
+  GG_FREED char *text =
+      gg_io_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  /* No memory: the name of another point; the lack is recorded. */
+  return add_text(add_text(sum, f->key), text ? text : "");
 }
 
 /* Add the extension of the calling program to the hash, by its names: it has no values. */
@@ -101,21 +99,19 @@ gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t
                                gg_error *err)
 {
   char there[40], here[40];
-  gg_status status = GG_OK;
-  json_t *whole = gg_scene_json(scene);
+  json_auto_t *whole = gg_scene_json(scene);
   if (!whole) return gg_base_out_of_memory(err);
-  for (const gg_field *f = gg_scene_fields; f->key && status == GG_OK; f++) {
+  for (const gg_field *f = gg_scene_fields; f->key; f++) {
     const json_t *value = value_in(stored, f->key), *wanted = value_in(whole, f->key);
     if (is_left_out(f->key, does) || (value && json_equal(value, wanted))) continue;
     value_text(value, there, sizeof there);
     value_text(wanted, here, sizeof here);
-    status = gg_base_fail(err, GG_BAD_FILE,
-                          "%s: holds another point: %s is %s there, and %s at the point of this name; "
-                          "remove it, and the point is done again",
-                          path, f->key, there, here);
+    return gg_base_fail(err, GG_BAD_FILE,
+                        "%s: holds another point: %s is %s there, and %s at the point of this name; remove it, and the "
+                        "point is done again",
+                        path, f->key, there, here);
   }
-  json_decref(whole);
-  return status;
+  return GG_OK;
 }
 
 /* True for keys that the seed of a point depends on. The length of a run counts only if it is varied: a run that is
@@ -260,40 +256,38 @@ static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene,
                               name);
 }
 
-gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
+/* The same; *id: the name of its file, NULL: not wanted. */
+static gg_status resolve_whole(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, uint64_t *id,
+                               gg_error *err)
 {
-  double seconds;
   const unsigned before = gg_base_memory_failures();
-  gg_status status = resolve_named(sweep, i, scene, &seconds, err);
+  gg_status status = resolve_named(sweep, i, scene, seconds, err);
+  if (status == GG_OK && id) *id = point_id(scene, sweep->settings.does);
   return gg_base_memory_failures() != before ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name)
                                              : status;
 }
 
-static void explain_number(const gg_sweep *sweep, gg_error *err)
+gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
+{
+  return resolve_whole(sweep, i, scene, &(double){0}, NULL, err);
+}
+
+static gg_status refuse_number(const gg_sweep *sweep, gg_error *err)
 {
   double n = 1;
   for (size_t f = 0; f < sweep->n_varied; f++) n *= (double)sweep->varied[f].n;
-  gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep would have %.0f points; allowed: up to %d", sweep->name, n,
-               GG_MOST_POINTS);
+  return GG_REFUSE(err, "%s: the sweep would have %.0f points; allowed: up to %d", sweep->name, n, GG_MOST_POINTS);
 }
 
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err)
 {
+  gg_scene scene;
   const size_t n = gg_sweep_count(sweep);
   if (sweep->n) return GG_OK;
-  if (!n) return explain_number(sweep, err), GG_BAD_INPUT;
-  gg_point *point = gg_base_array_new(n, sizeof *point, err);
+  if (!n) return refuse_number(sweep, err);
+  GG_FREED gg_point *point = gg_base_array_new(n, sizeof *point, err);
   if (!point) return GG_FAILED;
-  for (size_t i = 0; i < n; i++) {
-    gg_scene scene;
-    const unsigned before = gg_base_memory_failures();
-    gg_status status = resolve_named(sweep, i, &scene, &point[i].seconds, err);
-    if (status == GG_OK) point[i].id = point_id(&scene, sweep->settings.does);
-    if (gg_base_memory_failures() != before)
-      status = gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", sweep->name);
-    if (status != GG_OK) return free(point), status;
-  }
-  sweep->point = point;
-  sweep->n = n;
-  return GG_OK;
+  for (size_t i = 0; i < n; i++) GG_TRY(resolve_whole(sweep, i, &scene, &point[i].seconds, &point[i].id, err));
+  GG_HAND_OVER(&sweep->point, point);
+  return sweep->n = n, GG_OK;
 }

@@ -69,11 +69,11 @@ static gg_status find_key(const gg_sweep *s, const char *over, gg_picture_axis *
       const gg_picture_axis a = {.varied = f, .k = k, .n = s->varied[f].n};
       const bool meant = over ? strcmp(over, s->varied[f].key[k]) == 0 : s->varied[f].n > most && has_numbers(s, &a);
       if (meant && over && !has_numbers(s, &a))
-        return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' has values that are not numbers and cannot be an axis", over);
+        return GG_REFUSE(err, "'%.60s' has values that are not numbers and cannot be an axis", over);
       if (meant) most = s->varied[f].n, *axis = a;
       if (meant && over) return GG_OK;
     }
-  if (over) return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' is not a key that this sweep varies", over);
+  if (over) return GG_REFUSE(err, "'%.60s' is not a key that this sweep varies", over);
   return most > 0
              ? GG_OK
              : gg_base_fail(err, GG_FAILED,
@@ -84,7 +84,7 @@ gg_status gg_sweep_axis_choose(const gg_sweep *sweep, const char *over, const ch
                                gg_error *err)
 {
   if (log && !is_listed("x,y,xy,none", log))
-    return gg_base_fail(err, GG_BAD_INPUT, "'%.20s' is not a choice of logarithmic axes; allowed: x, y, xy, none", log);
+    return GG_REFUSE(err, "'%.20s' is not a choice of logarithmic axes; allowed: x, y, xy, none", log);
   GG_TRY(find_key(sweep, over, axis, err));
   axis->alone = is_alone(sweep, axis);
   axis->log = log && *log == 'x';
@@ -107,13 +107,12 @@ static panel *panel_of(drawing *d, const gg_point_row *row)
 static gg_status add_panels(drawing *d, const char *quantity, gg_error *err)
 {
   if (!gg_sweep_point_table_has(d->table, NULL, quantity))
-    return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%.60s'", quantity);
+    return GG_REFUSE(err, "no point has a quantity '%.60s'", quantity);
   for (size_t i = 0; i < d->table->n; i++) {
     const gg_point_row *row = &d->table->row[i];
     if (strcmp(row->quantity, quantity) != 0 || panel_of(d, row)) continue;
     if (d->n == MOST_PANELS)
-      return gg_base_fail(err, GG_BAD_INPUT, "a picture has at most %d panels, one for each quantity and unit",
-                          MOST_PANELS);
+      return GG_REFUSE(err, "a picture has at most %d panels, one for each quantity and unit", MOST_PANELS);
     snprintf(d->panel[d->n].quantity, sizeof d->panel->quantity, "%s", quantity);
     d->panel[d->n++].unit = unit_of(row);
   }
@@ -144,10 +143,9 @@ static gg_status choose_names(drawing *d, gg_error *err)
   if (!show) GG_TRY(add_default_panels(d, err));
   while (gg_sweep_next_word(&show, word)) GG_TRY(add_panels(d, word, err));
   while (gg_sweep_next_word(&theories, word))
-    if (!gg_sweep_point_table_has(d->table, word, NULL))
-      return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
+    if (!gg_sweep_point_table_has(d->table, word, NULL)) return GG_REFUSE(err, "no point has a theory '%s'", word);
   if (c->relative_to && !gg_sweep_point_table_has(d->table, c->relative_to, NULL))
-    return gg_base_fail(err, GG_BAD_INPUT, "no point has a method '%.60s'", c->relative_to);
+    return GG_REFUSE(err, "no point has a method '%.60s'", c->relative_to);
   return GG_OK;
 }
 

@@ -68,10 +68,8 @@ gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, co
 
 json_t *gg_sweep_settings_schema(void)
 {
-  json_t *whole = gg_scene_schema_of(settings_fields);
-  json_t *settings = json_incref(json_object_get(json_object_get(whole, "properties"), "sweep"));
-  json_decref(whole);
-  return settings;
+  json_auto_t *whole = gg_scene_schema_of(settings_fields);
+  return json_incref(json_object_get(json_object_get(whole, "properties"), "sweep"));
 }
 
 void gg_sweep_settings_print(FILE *out, const gg_sweep_settings *settings)
@@ -129,17 +127,14 @@ static void print_node(const gg_scene_reader *r, const yaml_node_t *node, FILE *
 
 static gg_status add_node(const gg_scene_reader *r, gg_values *values, const yaml_node_t *node)
 {
-  char *text = NULL;
+  GG_FREED char *text = NULL;
   FILE *out = gg_base_memory_stream_open(&text);
   if (out) print_node(r, node, out);
-  gg_status status = gg_base_memory_stream_close(out, &text)
-                         ? GG_OK
-                         : gg_base_error_prefix(r->err, gg_base_out_of_memory(r->err), "%s", r->name);
-  if (status == GG_OK && strlen(text) > LONGEST_VALUE)
-    status = gg_scene_reject(r, node, values->key, "a value is longer than %d characters", LONGEST_VALUE);
-  if (status == GG_OK) status = gg_sweep_values_add(values, text, r->err);
-  free(text);
-  return status;
+  if (!gg_base_memory_stream_close(out, &text))
+    return gg_base_error_prefix(r->err, gg_base_out_of_memory(r->err), "%s", r->name);
+  if (strlen(text) > LONGEST_VALUE)
+    return gg_scene_reject(r, node, values->key, "a value is longer than %d characters", LONGEST_VALUE);
+  return gg_sweep_values_add(values, text, r->err);
 }
 
 /* A message of parameter_grid.c, with the file and the line before it. */
@@ -206,10 +201,10 @@ static gg_status add_zipped(const gg_scene_reader *r, gg_sweep *sweep, value_lis
   GG_TRY(reject_range(r, l));
   for (size_t k = 1; k < l->n; k++)
     if (l->values[k].n != l->values[0].n)
-      return gg_scene_reject(r, l->node[k], l->values[k].key,
-                             "has %zu values, and %s, which goes with it, has %zu; keys of one map in a list change "
-                             "together",
-                             l->values[k].n, l->values[0].key, l->values[0].n);
+      return gg_scene_reject(
+          r, l->node[k], l->values[k].key,
+          "has %zu values, and %s, which goes with it, has %zu; keys of one map in a list change together",
+          l->values[k].n, l->values[0].key, l->values[0].n);
   return l->n ? place(r, l->node[0], gg_sweep_add_rows(sweep, l->values, l->n, r->err)) : GG_OK;
 }
 

@@ -95,23 +95,21 @@ static gg_status add_run(gg_point_table *t, gg_point_row row, json_t *document, 
 /* Add theories of the sweep's file, evaluated now: the file may have changed since the point was run. */
 static gg_status add_own_theories(gg_point_table *t, gg_point_row row, const gg_model *m, gg_error *err)
 {
-  gg_quantity_rows *rows = gg_base_array_new(1, sizeof *rows, err);
+  GG_FREED gg_quantity_rows *rows = gg_base_array_new(1, sizeof *rows, err);
   if (!rows) return GG_FAILED;
-  gg_status status = GG_OK;
   gg_run_rows_make(m, rows);
-  for (int i = 0; i < gg_common_extension_theories(m->extension) && status == GG_OK; i++) {
+  for (int i = 0; i < gg_common_extension_theories(m->extension); i++) {
     const gg_theory *theory = gg_common_extension_face(m->extension, i);
     gg_theory_answer answer;
     if (gg_theory_evaluate(theory, m, &answer, NULL) != GG_OK) continue;
     row.method = theory->name;
-    for (int k = 0; k < rows->n && status == GG_OK; k++) {
+    for (int k = 0; k < rows->n; k++) {
       row.quantity = rows->row[k].name, row.unit = rows->row[k].unit;
       row.mean = answer.value[rows->row[k].quantity], row.error = NAN;
-      if (isfinite(row.mean)) status = add_row(t, &row, err);
+      if (isfinite(row.mean)) GG_TRY(add_row(t, &row, err));
     }
   }
-  free(rows);
-  return status;
+  return GG_OK;
 }
 
 static bool is_own(const gg_extension *x, const char *theory)
@@ -145,15 +143,13 @@ static gg_status add_document(gg_point_table *t, gg_point_row row, json_t *docum
 
 static gg_status read_document(const char *path, json_t **document, char **scene, gg_error *err)
 {
-  gg_h5_in h;
+  GG_CLEARED(gg_h5_in_close) gg_h5_in h = {.fd = -1};
   gg_h5_open(&h, path, false);
-  char *text = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/document");
+  GG_FREED char *text = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/document");
   const char *why = "out of memory";
   *document = text ? gg_files_document_read(text, &why) : NULL;
-  free(text);
   if (!*document && !h.failed) gg_h5_in_failed(&h, why);
   *scene = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/scene");
-  gg_h5_in_close(&h);
   return gg_h5_in_status(&h, path, err);
 }
 
@@ -177,20 +173,14 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   GG_TRY(gg_sweep_resolve(sweep, i, &scene, err));
   gg_point_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
   gg_sweep_point_name(id, row.file);
-  char path[PATH_MAX], *yaml = NULL;
-  json_t *document = NULL;
+  char path[PATH_MAX];
+  GG_FREED char *yaml = NULL;
+  json_auto_t *document = NULL;
   gg_sweep_point_path(folder, id, row.fell_short ? ".short.h5" : ".h5", path);
-  gg_status status = read_document(path, &document, &yaml, err);
-  if (status == GG_OK)
-    status = gg_sweep_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err);
-  if (status == GG_OK) {
-    t->document[t->n_documents++] = document;
-    status = add_read_point(t, row, &scene, document, yaml, err);
-  } else {
-    json_decref(document);
-  }
-  free(yaml);
-  return status;
+  GG_TRY(read_document(path, &document, &yaml, err));
+  GG_TRY(gg_sweep_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err));
+  t->document[t->n_documents++] = json_incref(document);
+  return add_read_point(t, row, &scene, document, yaml, err);
 }
 
 gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, const char *folder, const gg_stop *stop,
@@ -263,12 +253,11 @@ static void put_count(gg_csv *csv, uint64_t n)
 static void put_cell(gg_csv *csv, const gg_point_row *row, size_t c)
 {
   const void *at = cell(row, c);
-  json_t *value = NULL;
+  json_auto_t *value = NULL;
   switch (columns[c].kind) {
   case NUMBER:
     value = isfinite(*(const double *)at) ? json_real(*(const double *)at) : NULL;
     gg_io_csv_json(csv, value);
-    json_decref(value);
     return;
   case WHOLE: put_count(csv, *(const uint64_t *)at); return;
   case TRUTH: gg_io_csv_text(csv, *(const bool *)at ? "true" : "false"); return;
@@ -296,7 +285,7 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
 {
   gg_atomic_file file;
   GG_TRY(gg_io_atomic_open(&file, path, false, err));
-  gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
+  GG_FREED gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
   if (!out) return gg_io_atomic_abandon(&file), GG_FAILED;
   const unsigned before = gg_base_memory_failures();
   gg_io_file_writer_begin(out, &file, err);
@@ -306,9 +295,7 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
   for (size_t c = 0; c < COLUMNS; c++) gg_io_csv_text(&csv, columns[c].name);
   gg_io_csv_end_row(&csv);
   for (size_t i = 0; i < t->n; i++) put_row(&csv, sweep, &t->row[i]);
-  gg_status status = gg_base_memory_check(before, gg_io_file_writer_end(out), err);
-  free(out);
-  return gg_io_atomic_commit(&file, status, err);
+  return gg_io_atomic_commit(&file, gg_base_memory_check(before, gg_io_file_writer_end(out), err), err);
 }
 
 /* Room for a column of each type. */
@@ -388,41 +375,29 @@ static gg_status write_image(gg_h5 *h, const char *path, gg_error *err)
 {
   size_t size = 0;
   gg_atomic_file file;
-  void *image = gg_h5_image(h, &size);
+  GG_FREED void *image = gg_h5_image(h, &size);
   gg_h5_close(h);
-  gg_status status = gg_h5_status(h, path, "written", err);
-  if (status == GG_OK) status = gg_io_atomic_open(&file, path, false, err);
-  if (status != GG_OK) return free(image), status;
-  status = gg_files_checksum_trailer_write(&file, image, size, NULL, err);
-  free(image);
-  return gg_io_atomic_commit(&file, status, err);
+  GG_TRY(gg_h5_status(h, path, "written", err));
+  GG_TRY(gg_io_atomic_open(&file, path, false, err));
+  return gg_io_atomic_commit(&file, gg_files_checksum_trailer_write(&file, image, size, NULL, err), err);
 }
 
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep *sweep, const char *path,
                                         const char *command, gg_error *err)
 {
   gg_h5 h;
-  const column c = {&h,
-                    t->n,
-                    gg_base_array_new(t->n, sizeof(double), err),
-                    gg_base_array_new(t->n, sizeof(int64_t), err),
-                    gg_base_array_new(t->n, 1, err),
-                    gg_base_array_new(t->n, sizeof(char *), err)};
-  gg_status status = c.number && c.whole && c.truth && c.text ? GG_OK : GG_FAILED;
-  if (status == GG_OK) {
-    gg_h5_create_in_memory(&h);
-    gg_h5_group(&h, "/graingas/table");
-    gg_h5_text(&h, "/graingas/version", gg_base_build_version);
-    gg_h5_text(&h, "/graingas/command", command);
-    gg_h5_text_attribute(&h, "/graingas", "kind", "sweep");
-    write_columns(&c, t, sweep);
-    status = write_image(&h, path, err);
-  }
-  free(c.number);
-  free(c.whole);
-  free(c.truth);
-  free(c.text);
-  return status;
+  GG_FREED double *number = gg_base_array_new(t->n, sizeof *number, err);
+  GG_FREED int64_t *whole = gg_base_array_new(t->n, sizeof *whole, err);
+  GG_FREED uint8_t *truth = gg_base_array_new(t->n, sizeof *truth, err);
+  GG_FREED const char **text = gg_base_array_new(t->n, sizeof *text, err);
+  if (!number || !whole || !truth || !text) return GG_FAILED;
+  gg_h5_create_in_memory(&h);
+  gg_h5_group(&h, "/graingas/table");
+  gg_h5_text(&h, "/graingas/version", gg_base_build_version);
+  gg_h5_text(&h, "/graingas/command", command);
+  gg_h5_text_attribute(&h, "/graingas", "kind", "sweep");
+  write_columns(&(column){&h, t->n, number, whole, truth, text}, t, sweep);
+  return write_image(&h, path, err);
 }
 
 /* A value as a number if it is one, else as its YAML. */
@@ -445,12 +420,10 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
                                        [GG_POINT_DAMAGED] = "damaged"};
   char name[GG_POINT_NAME];
   gg_scene scene;
+  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK)
+    return gg_io_json_made(NULL); /* the scene was checked before, so memory is short */
   json_t *keys = json_object();
   gg_sweep_point_name(sweep->point[i].id, name);
-  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* the scene was checked before, so memory is short */
-    json_decref(keys);
-    return gg_io_json_made(NULL);
-  }
   for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
     json_object_set_new(keys, gg_sweep_column_key(sweep, k), value_json(gg_sweep_column_value(sweep, i, k)));
   return json_pack("{s:I, s:o, s:s, s:s, s:f, s:I, s:I}", "point", (json_int_t)i + 1, "keys", keys, "name", name,
@@ -464,12 +437,10 @@ static json_t *name_as_text(const char *name)
 {
   json_t *text = (json_string)(name);
   if (text) return text;
-  char *plain = strdup(name);
+  GG_FREED char *plain = strdup(name);
   for (char *c = plain; c && *c; c++)
     if (*c & 0x80) *c = '?';
-  text = plain ? json_string(plain) : gg_io_json_made(NULL);
-  free(plain);
-  return text;
+  return plain ? json_string(plain) : gg_io_json_made(NULL);
 }
 
 json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)

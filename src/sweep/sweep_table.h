@@ -103,11 +103,8 @@ void gg_sweep_lines_free(gg_sweep *lines, const gg_picture_axis *axis);
 /* Points that differ in the rows of one varied group alone, that of a picture's axis, are one line of the picture. */
 enum { GG_COMBINATION_NAME = 1024 };
 
-/* The first point of those that differ from point i in `varied` alone: one number for each combination of the other
- * rows. */
-size_t gg_sweep_line_group_of(const gg_sweep *sweep, size_t i, size_t varied);
-/* "β = 0.5, φ = 0.1", enhanced text: the values of a combination, long values by what they differ in. */
-void gg_sweep_line_group_name(const gg_sweep *sweep, size_t combination, size_t varied, char text[GG_COMBINATION_NAME]);
+/* "β = 0.5, φ = 0.1", enhanced text: the values of the other keys at a point, long values by what they differ in. */
+void gg_sweep_line_group_name(const gg_sweep *sweep, size_t point, size_t varied, char text[GG_COMBINATION_NAME]);
 
 /* The points of a checked sweep as JSON. A new reference; NULL: out of memory. */
 json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder);

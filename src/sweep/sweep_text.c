@@ -41,7 +41,7 @@ static char *text_of(const gg_sweep *sweep)
   char *text = NULL;
   const unsigned before = gg_base_memory_failures();
   FILE *out = gg_base_memory_stream_open(&text);
-  json_t *given = given_json(sweep->base);
+  json_auto_t *given = given_json(sweep->base);
   if (out && given) {
     fputs("# Written by graingas sweep: graingas sweep FOLDER reads it.\n", out);
     gg_scene_yaml_print(out, given);
@@ -49,7 +49,6 @@ static char *text_of(const gg_sweep *sweep)
     for (size_t f = 0; f < sweep->n_varied; f++) print_varied(out, &sweep->varied[f]);
     gg_sweep_settings_print(out, &sweep->settings);
   }
-  json_decref(given);
   if (gg_base_memory_stream_close(out, &text) && gg_base_memory_failures() == before) return text;
   free(text);
   return NULL;
@@ -58,13 +57,10 @@ static char *text_of(const gg_sweep *sweep)
 /* True if the file holds this text: tasks of a cluster start together, and one of them writes it. */
 static bool holds(const char *path, const char *text)
 {
-  FILE *in = fopen(path, "r");
+  GG_CLOSED FILE *in = fopen(path, "r");
   const size_t length = strlen(text);
-  char *found = in ? malloc(length + 2) : NULL;
-  bool same = found && fread(found, 1, length + 2, in) == length && memcmp(found, text, length) == 0;
-  free(found);
-  if (in) fclose(in);
-  return same;
+  GG_FREED char *found = in ? malloc(length + 2) : NULL;
+  return found && fread(found, 1, length + 2, in) == length && memcmp(found, text, length) == 0;
 }
 
 static gg_status write_text(const char *path, const char *text, gg_error *err)
@@ -81,13 +77,12 @@ gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_err
   char path[PATH_MAX];
   gg_file_lock lock = GG_FILE_LOCK_NONE;
   if (!gg_sweep_folder_text_path(folder, path)) return GG_OK;
-  char *text = text_of(sweep);
+  GG_FREED char *text = text_of(sweep);
   if (!text) return gg_base_out_of_memory(err);
   gg_status status = gg_io_file_lock_take(&lock, path, path, err); /* removes what a dead process left */
   if (status == GG_OK && !holds(path, text)) status = write_text(path, text, err);
   if (lock.busy) status = GG_OK; /* another process is writing the same */
   gg_io_file_lock_release(&lock);
-  free(text);
   return status;
 }
 

@@ -73,7 +73,7 @@ static gg_status write_page(const gg_validate_options *o, const gg_point_table *
 {
   gg_atomic_file file;
   GG_TRY(gg_io_atomic_open(&file, o->page, false, err));
-  gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
+  GG_FREED gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
   if (!out) return gg_io_atomic_abandon(&file), GG_FAILED;
   gg_io_file_writer_begin(out, &file, err);
   put_head(out, t);
@@ -85,40 +85,34 @@ static gg_status write_page(const gg_validate_options *o, const gg_point_table *
                                "run is not steady, a triangle where md is clustered or swirls, a diamond where it is "
                                "collapsed. Panels marked \"against dsmc\" have no noise-free solution.\n\n");
   gg_io_file_writer_put(out, maps);
-  gg_status status = gg_io_file_writer_end(out);
-  free(out);
-  return gg_io_atomic_commit(&file, status, err);
+  return gg_io_atomic_commit(&file, gg_io_file_writer_end(out), err);
 }
 
 static gg_status print_verdict(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
                                gg_error *err)
 {
-  char *made = NULL;
+  GG_FREED char *made = NULL;
   FILE *out = gg_base_memory_stream_open(&made);
   if (!out) return gg_base_out_of_memory(err);
   gg_status status = gg_sweep_verdict_print(view, agreement, repeat, out, err);
   if (!gg_base_memory_stream_close(out, &made)) return gg_base_out_of_memory(err);
-  if (status == GG_OK)
-    *text = made;
-  else
-    free(made);
+  if (status == GG_OK) GG_HAND_OVER(text, made);
   return status;
 }
 
 static gg_status draw(validating *v, const gg_grid_view *view, const gg_point_table *t, const char *verdict,
                       gg_error *err)
 {
-  char *maps = NULL;
+  GG_FREED char *maps = NULL;
   if (!(v->maps = gg_base_memory_stream_open(&maps))) return gg_base_out_of_memory(err);
   gg_status status = draw_maps(v, view, err);
   if (!gg_base_memory_stream_close(v->maps, &maps)) return gg_base_out_of_memory(err);
-  if (status == GG_OK) status = gg_stop_check(v->stop, err);
-  if (status == GG_OK && v->options->page) {
-    status = write_page(v->options, t, maps, verdict, err);
-    if (status == GG_OK && v->written) v->written(v->context, v->options->page);
-  }
-  free(maps);
-  return status;
+  GG_TRY(status);
+  GG_TRY(gg_stop_check(v->stop, err));
+  if (!v->options->page) return GG_OK;
+  GG_TRY(write_page(v->options, t, maps, verdict, err));
+  if (v->written) v->written(v->context, v->options->page);
+  return GG_OK;
 }
 
 static gg_status validate(validating *v, const gg_grid_view *view, const gg_point_table *t, char **text, gg_error *err)
@@ -129,9 +123,8 @@ static gg_status validate(validating *v, const gg_grid_view *view, const gg_poin
   GG_TRY(draw(v, view, t, *text, err));
   if (v->options->json) {
     free(*text);
-    json_t *document = gg_sweep_verdict_document(view, &agreement, v->options->repeat);
+    json_auto_t *document = gg_sweep_verdict_document(view, &agreement, v->options->repeat);
     *text = document ? gg_files_document_text(document) : NULL;
-    json_decref(document);
     if (!*text) return gg_base_out_of_memory(err);
   }
   if (!agreement.n_values)
@@ -147,10 +140,8 @@ gg_status gg_sweep_validate_table(const gg_point_table *t, const gg_sweep *sweep
                                   void (*written)(void *context, const char *file), void *context, const gg_stop *stop,
                                   char **text, gg_error *err)
 {
-  gg_grid_view view;
+  GG_CLEARED(gg_sweep_grid_view_clear) gg_grid_view view = {0};
   validating v = {.options = options, .written = written, .context = context, .stop = stop};
   GG_TRY(gg_sweep_grid_view_make(&view, t, sweep, err));
-  gg_status status = validate(&v, &view, t, text, err);
-  gg_sweep_grid_view_clear(&view);
-  return status;
+  return validate(&v, &view, t, text, err);
 }

@@ -209,17 +209,15 @@ static void print_worst_row(const writing *w, const gg_point_row *row)
 
 static gg_status print_worst(const writing *w, gg_error *err)
 {
-  const gg_point_row **found = gg_base_array_new(w->view->table->n + 1, sizeof(void *), err);
+  GG_FREED const gg_point_row **found = gg_base_array_new(w->view->table->n + 1, sizeof(void *), err);
   if (!found) return GG_FAILED;
   const size_t n = gg_sweep_find_worst(w->view, found);
-  if (n) {
-    fprintf(w->out, "The largest z:\n\n");
-    gg_sweep_text_row(w->table);
-    gg_sweep_text_cells(w->table, "z\tquantity\tdsmc\terror\tenskog_hermite\tpoint%s", w->repeat ? "\trepeat it" : "");
-    for (size_t i = 0; i < n; i++) print_worst_row(w, found[i]);
-    gg_sweep_text_print(w->table, w->out);
-  }
-  free(found);
+  if (!n) return GG_OK;
+  fprintf(w->out, "The largest z:\n\n");
+  gg_sweep_text_row(w->table);
+  gg_sweep_text_cells(w->table, "z\tquantity\tdsmc\terror\tenskog_hermite\tpoint%s", w->repeat ? "\trepeat it" : "");
+  for (size_t i = 0; i < n; i++) print_worst_row(w, found[i]);
+  gg_sweep_text_print(w->table, w->out);
   return GG_OK;
 }
 
@@ -370,13 +368,13 @@ static void print_theories(const writing *w)
 gg_status gg_sweep_verdict_print(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, FILE *out,
                                  gg_error *err)
 {
-  writing w = {view, agreement, repeat, gg_base_array_new(1, sizeof *w.table, err), out};
-  if (!w.table) return GG_FAILED;
+  GG_FREED gg_text_table *table = gg_base_array_new(1, sizeof *table, err);
+  const writing w = {view, agreement, repeat, table, out};
+  if (!table) return GG_FAILED;
   print_points(&w);
   print_agreement(&w);
   gg_status status = print_worst(&w, err);
   print_md(&w);
   print_theories(&w);
-  free(w.table);
   return status;
 }

@@ -45,7 +45,7 @@ static json_t *agreement_json(const gg_agreement *a)
 static json_t *worst_json(const gg_grid_view *v, const char *repeat)
 {
   json_t *rows = json_array();
-  const gg_point_row **found = gg_base_array_new(v->table->n + 1, sizeof(void *), NULL);
+  GG_FREED const gg_point_row **found = gg_base_array_new(v->table->n + 1, sizeof(void *), NULL);
   for (size_t i = 0, n = found ? gg_sweep_find_worst(v, found) : 0; i < n; i++) {
     json_t *row = point_json(v, found[i]->point);
     json_object_update_new(row, json_pack("{s:o, s:s, s:o, s:o, s:o}", "z", gg_io_json_finite(found[i]->z), "quantity",
@@ -55,18 +55,14 @@ static json_t *worst_json(const gg_grid_view *v, const char *repeat)
     if (repeat) json_object_set_new(row, "repeat", json_sprintf("%s %zu", repeat, found[i]->point + 1));
     json_array_append_new(rows, row);
   }
-  free(found);
   return rows;
 }
 
 static void add_counts(json_t *rows, const gg_grid_view *v, const char *method, const char *quantity)
 {
   const gg_off_counts c = gg_sweep_count_off(v, method, quantity);
+  if (!c.n) return;
   json_t *beyond = json_object();
-  if (!c.n) {
-    json_decref(beyond);
-    return;
-  }
   for (int k = 0; k < GG_THRESHOLDS; k++) {
     char text[16];
     snprintf(text, sizeof text, "%g", gg_sweep_thresholds[k]);
@@ -81,7 +77,8 @@ static void add_counts(json_t *rows, const gg_grid_view *v, const char *method, 
 /* Add the counts of the main quantities for every method. */
 static json_t *counts_json(const gg_grid_view *v)
 {
-  json_t *rows = json_array(), *seen = json_object();
+  json_t *rows = json_array();
+  json_auto_t *seen = json_object();
   for (size_t i = 0; i < v->table->n; i++) {
     const char *method = v->table->row[i].method;
     if (json_object_get(seen, method)) continue;
@@ -90,7 +87,6 @@ static json_t *counts_json(const gg_grid_view *v)
       if (gg_sweep_is_main_quantity(gg_common_quantity_name(q)))
         add_counts(rows, v, method, gg_common_quantity_name(q));
   }
-  json_decref(seen);
   return rows;
 }
 

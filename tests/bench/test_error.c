@@ -32,7 +32,7 @@ static void made_up_runs(void **state)
   gg_error_state *s = calloc(1, sizeof *s);
   double of_error;
   make_up(s);
-  assert_true(fabs(gg_bench_error_course_noise(&s->course[WAY], 0) - 0.1) < 1e-12);
+  assert_true(fabs(gg_statistics_course_noise(&s->course[WAY], 0) - 0.1) < 1e-12);
   s->noise[WAY][0] = 0.05, s->unit[0] = 2, s->truth[GG_DSMC][0] = 2;
   assert_true(fabs(gg_bench_error_at(s, WAY, 0, 3, &of_error) - 0.05 * sqrt(7.0 / 8) / sqrt(0.008)) < 1e-12);
   assert_true(fabs(of_error / gg_bench_error_at(s, WAY, 0, 3, &of_error) - 0.25) < 1e-12); /* of 8 squares */
@@ -59,7 +59,7 @@ static void warm_up(void **state)
   make_up(s);
   c->warmup = 0.05;
   for (int k = 0; k < MARKS; k++) c->seconds[k] += c->warmup;
-  assert_true(fabs(gg_bench_error_course_noise(c, 0) - 0.1) < 1e-12);
+  assert_true(fabs(gg_statistics_course_noise(c, 0) - 0.1) < 1e-12);
   s->noise[WAY][0] = 0.05, s->unit[0] = 2, s->truth[GG_DSMC][0] = 2;
   assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 0.01) - 25.05) < 1e-9);
   assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 1) - 0.0525) < 1e-9);
@@ -77,7 +77,7 @@ static void check_step(const gg_error_state *s, int q)
     for (int i = 0; i < GG_ERROR_METHODS; i++) {
       const gg_error_method *w = &gg_bench_error_methods[i];
       if (w->step != 1 && w->step != 0.5) continue;
-      const gg_course_end end = gg_bench_error_course_last(&s->course[i], q);
+      const gg_course_end end = gg_statistics_course_last(&s->course[i], q);
       const double off = end.mean - s->truth[GG_DSMC][q] - s->size[GG_DSMC][q].per_grain / (double)w->n -
                          c * w->step * w->step * s->unit[q];
       sum += off * off / (end.error * end.error + s->truth_error[GG_DSMC][q] * s->truth_error[GG_DSMC][q]);

@@ -25,7 +25,7 @@ def test_each_kind_of_word_has_entries():
                         ("lun1991", ("J. Fluid Mech. 233 (1991) 539", "answers", "temperature_ratio", "; flows: usf", "range")),
                         ("run.relative_error", ("headline quantity", "at most 1, or auto", "default: auto", "effect if")),
                         ("relative_error", ("run.relative_error: a key",)), ("walls.speed", ("flow couette", "unit: velocity")),
-                        ("fraction", ("a key of a species",)), ("usf", ("a flow",)), ("dsmc", ("an engine",)),
+                        ("fraction", ("a key of a species",)), ("species.torque", ("torque: a key of a species",)), ("usf", ("a flow",)), ("dsmc", ("an engine",)),
                         ("pair_correlation", ("an observable", "docs/reference/support.md", "observables.md"))):
         out = lines(word)
         for part in parts:

@@ -70,6 +70,17 @@ def test_a_kept_state_is_not_replaced_by_another_run():
     check(done.code == 3 and "part.checkpoint.h5: holds the state of a run" in done.err, done.code, done.err)
 
 
+def test_a_state_of_another_run_is_rejected():
+    """A checkpoint has the name of the result's, and is of another run."""
+    at_once("other", SCENE % ("md", "seed: 7, relative_error: 0.05", ""))
+    at_once("part", SCENE % ("md", "relative_error: 0.05", ""))
+    before = open("part.h5", "rb").read()
+    shutil.copy("other.checkpoint.h5", "part.checkpoint.h5")
+    done = run("run", "--extend", "part.h5", "--quiet", "--set", "run.relative_error=0.02")
+    check(done.code == 2 and "part.h5: is not the result of the run in part.checkpoint.h5" in done.err, done.code, done.err)
+    check("run.seed differs (there 7, here 1)" in done.err and open("part.h5", "rb").read() == before, done.err)
+
+
 def test_trajectory_and_log_go_on():
     more = ", trajectory_every: 100, log: %s.csv"
     at_once("whole", SCENE % ("md", "collisions: 1000", more % "whole"))
@@ -103,7 +114,7 @@ def test_runs_whose_numerics_follow_the_requested_error_say_so():
 def test_results_without_a_state_and_other_changes_are_rejected():
     scene = SCENE % ("md", "relative_error: 0.05", "")
     at_once("part", scene)
-    for key in "collision.e=0.8", "run.seed=3", "engine=dsmc", "run.warmup=100":
+    for key in "collision.e=0.8", "run.seed=3", "engine=dsmc", "run.warmup=100", "start.positions=fcc":
         done = run("run", "--extend", "part.h5", "--quiet", "--set", key)
         check(done.code == 2 and key.split("=")[0] in done.err and "run.relative_error, run.until" in done.err, key, done.err)
     check(run("run", "part.yaml", "--extend", "part.h5").code == 2)

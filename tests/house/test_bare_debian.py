@@ -30,7 +30,7 @@ def sources():
     subprocess.run(["tar", "-C", SOURCE, "--null", "-T", "-", "-cf", "sources.tar"], input=listed, check=True)
 
 
-def in_bare_debian(root, code, timeout=1500):
+def in_bare_debian(root, code, timeout=3600):
     """A new root with apt alone, the sources in /source, and the shell's lines run there. The root stays."""
     if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
         raise Skip("needs root and mmdebstrap")
@@ -42,7 +42,7 @@ def in_bare_debian(root, code, timeout=1500):
     return in_root(root, code, timeout)
 
 
-def in_root(root, code, timeout=1500):
+def in_root(root, code, timeout=3600):
     """bash -e in that root; what it prints. /proc and /dev are those of the machine, and leave with the root's processes."""
     wrapped = 'mount -t proc proc "$0/proc"; mount --bind /dev "$0/dev"; cp /etc/resolv.conf "$0/etc/"; exec chroot "$0" bash -ec "$1"'
     done = subprocess.run(["unshare", "--mount", "sh", "-ec", wrapped, root, code], capture_output=True, text=True, timeout=timeout,

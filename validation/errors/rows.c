@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "graingas.h"
 #include "run/replicas.h"
 #include "run/run.h"
 #include "scene/scene_reader.h"
@@ -70,10 +71,11 @@ static gg_status simulate(const gg_scene *scene, size_t n, double *y[SERIES], bo
 
 int main(int argc, char **argv)
 {
-  gg_scene scene = gg_scene_defaults();
+  gg_scene scene, *given;
   gg_error err = {0};
   size_t n = 100000;
-  bool good = argc >= 4 && argc % 2 == 0 && gg_scene_read_file(&scene, argv[3], &err) == GG_OK;
+  bool good = argc >= 4 && argc % 2 == 0 && gg_scene_load(argv[3], &given, &err) == GG_OK;
+  if (good) scene = *given;
   for (int i = 4; good && i < argc; i += 2) {
     char *value = strchr(argv[i + 1], '=');
     if (strcmp(argv[i], "--rows") == 0) {

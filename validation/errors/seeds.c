@@ -15,9 +15,9 @@
 #include <string.h>
 
 #include "common/quantity.h"
+#include "graingas.h"
 #include "run/run.h"
 #include "scene/scene_reader.h"
-#include "graingas.h"
 
 enum { MOST_NUMBERS = 20000, MOST_TRUTHS = 16, MOST_BOUNDS = 16 };
 
@@ -260,9 +260,11 @@ static int run_all(campaign *c)
 
 int main(int argc, char **argv)
 {
-  campaign c = {.seeds = 200, .scene = gg_scene_defaults()};
+  campaign c = {.seeds = 200};
+  gg_scene *given;
   gg_error err = {0};
-  bool good = argc >= 2 && argc % 2 == 0 && gg_scene_read_file(&c.scene, argv[1], &err) == GG_OK;
+  bool good = argc >= 2 && argc % 2 == 0 && gg_scene_load(argv[1], &given, &err) == GG_OK;
+  if (good) c.scene = *given;
   for (int i = 2; good && i < argc; i += 2) good = take(&c, argv[i], argv[i + 1], &err);
   if (!good || gg_scene_finish(&c.scene, &err) != GG_OK) return usage(err.message);
   size_t all = (size_t)c.seeds * MOST_NUMBERS;

@@ -56,7 +56,7 @@ static gg_status make_image(const char *path, const gg_archive *a, const gg_scen
   gg_h5 h;
   uint64_t n = a->n_items;
   const int layout = GG_CHECKPOINT_LAYOUT;
-  char *yaml = gg_scene_yaml(scene);
+  GG_FREED char *yaml = gg_scene_yaml(scene);
   gg_h5_create_in_memory(&h);
   h.stop = a->stop;
   if (!yaml) gg_h5_failed(&h, "out of memory");
@@ -68,25 +68,18 @@ static gg_status make_image(const char *path, const gg_archive *a, const gg_scen
   write_items(&h, a);
   *image = gg_h5_image(&h, size);
   gg_h5_close(&h);
-  free(yaml);
-  gg_status status = gg_h5_status(&h, path, "written", err);
-  if (status == GG_OK) return status;
-  free(*image);
-  *image = NULL;
-  return status;
+  return gg_h5_status(&h, path, "written", err);
 }
 
 /* The one before gives way only once this one is safe on the disk. A disk error is reported once: who asks again
  * hears that all is well. */
 static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
 {
-  char *before = NULL;
+  GG_FREED char *before = NULL;
   if (fsync(file->fd) != 0) return gg_io_path_write_error(file->path, strerror(errno), err);
-  if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_base_out_of_memory(err);
+  if (asprintf(&before, "%s.1", file->place.target) < 0) return before = NULL, gg_base_out_of_memory(err);
   bool kept = rename(file->place.target, before) == 0 || errno == ENOENT; /* the first time there is none */
-  int number = errno;
-  free(before);
-  return kept ? GG_OK : gg_io_path_write_error(file->path, strerror(number), err);
+  return kept ? GG_OK : gg_io_path_write_error(file->path, strerror(errno), err);
 }
 
 static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
@@ -96,12 +89,11 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   size_t size = 0;
   GG_TRY(gg_io_atomic_open(&file, path, locked, err));
   file.repeated = locked;
-  void *image = NULL;
+  GG_FREED void *image = NULL;
   gg_status status = make_image(path, a, scene, &image, &size, err);
-  if (image && file.place.stream)
+  if (status == GG_OK && file.place.stream)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path);
   if (status == GG_OK) status = gg_files_checksum_trailer_write(&file, image, size, a->stop, err);
-  free(image);
   if (status == GG_OK && a->stop && gg_stop_asked(a->stop))
     status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK && keep) status = keep_before(&file, err);
@@ -124,19 +116,14 @@ static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
 {
   char path[48];
   snprintf(path, sizeof path, "/checkpoint/%zu", i);
-  char *name = gg_h5_read_text_attribute(h, path, "name"), *word = gg_h5_read_text_attribute(h, path, "type");
-  gg_status status = GG_OK;
+  GG_FREED char *name = gg_h5_read_text_attribute(h, path, "name");
+  GG_FREED char *word = gg_h5_read_text_attribute(h, path, "type");
   int type = 0;
+  size_t count;
   while (!h->failed && type < GG_ITEM_TYPES && strcmp(item_types[type].name, word) != 0) type++;
-  if (!h->failed && type < GG_ITEM_TYPES) {
-    size_t count;
-    void *data = gg_h5_read_array(h, path, (gg_item_type)type, &count);
-    if (data) status = gg_base_archive_put(a, name, (gg_item_type)type, data, count, err);
-    free(data);
-  }
-  free(name);
-  free(word);
-  return status;
+  if (h->failed || type == GG_ITEM_TYPES) return GG_OK;
+  GG_FREED void *data = gg_h5_read_array(h, path, (gg_item_type)type, &count);
+  return data ? gg_base_archive_put(a, name, (gg_item_type)type, data, count, err) : GG_OK;
 }
 
 /* An open file, which is closed. */
@@ -174,7 +161,7 @@ gg_status gg_files_checkpoint_to_bytes(const gg_archive *a, const gg_scene *scen
   size_t image_size = 0;
   void *image = NULL;
   gg_status status = make_image("the simulation", a, scene, &image, &image_size, err);
-  if (status != GG_OK) return status == GG_INTERRUPTED ? status : GG_FAILED;
+  if (status != GG_OK) return free(image), status == GG_INTERRUPTED ? status : GG_FAILED;
   if (!(image = gg_files_checksum_trailer_append(image, image_size, err))) return GG_FAILED;
   *bytes = image, *size = image_size + GG_TRAILER_SIZE;
   return GG_OK;
@@ -185,49 +172,38 @@ gg_status gg_files_checkpoint_read(const char *path, bool any_build, gg_archive 
   gg_status status = read_file(path, any_build, a, err);
   *older = false;
   if (status != GG_BAD_FILE) return status;
-  char *before = gg_files_checkpoint_before(path);
+  GG_FREED char *before = gg_files_checkpoint_before(path);
   if (before) *older = read_file(before, any_build, a, NULL) == GG_OK;
-  free(before);
   return *older ? GG_OK : status;
 }
 
 char *gg_files_checkpoint_before(const char *path)
 {
-  char *target = gg_io_path_follow_links(path), *before = NULL;
-  if (target && asprintf(&before, "%s.1", target) < 0) {
-    gg_base_memory_lacked();
-    before = NULL;
-  }
-  free(target);
+  GG_FREED char *target = gg_io_path_follow_links(path);
+  char *before = NULL;
+  if (target && asprintf(&before, "%s.1", target) < 0) gg_base_memory_lacked(), before = NULL;
   return before;
 }
 
 bool gg_files_checkpoint_is_of(const char *file, const char *path)
 {
   if (gg_io_path_is_same_file(file, path)) return true;
-  char *before = gg_files_checkpoint_before(path);
-  bool is = gg_io_path_is_same_file(file, before);
-  free(before);
-  return is;
+  GG_FREED char *before = gg_files_checkpoint_before(path);
+  return gg_io_path_is_same_file(file, before);
 }
 
 char *gg_files_checkpoint_scene(const char *path, bool older)
 {
-  gg_h5_in h;
-  char *before = NULL;
-  if (older && asprintf(&before, "%s.1", path) < 0) return NULL;
+  GG_CLEARED(gg_h5_in_close) gg_h5_in h = {.fd = -1};
+  GG_FREED char *before = NULL;
+  if (older && asprintf(&before, "%s.1", path) < 0) return before = NULL;
   gg_h5_open(&h, older ? before : path, false);
-  char *yaml = gg_h5_read_text(&h, "/checkpoint/scene");
-  gg_h5_in_close(&h);
-  free(before);
-  return yaml;
+  return gg_h5_read_text(&h, "/checkpoint/scene");
 }
 
 gg_status gg_files_checkpoint_remove_before(const char *path, gg_error *err)
 {
-  char *before = gg_files_checkpoint_before(path);
+  GG_FREED char *before = gg_files_checkpoint_before(path);
   if (!before) return gg_base_out_of_memory(err);
-  unlink(before);
-  free(before);
-  return GG_OK;
+  return unlink(before), GG_OK;
 }

@@ -100,10 +100,8 @@ static int sum_up(int fd, off_t size, unsigned char *trailer, unsigned char **bl
 int gg_files_checksum_trailer_of_file(int fd, unsigned char trailer[GG_TRAILER_SIZE])
 {
   struct stat about;
-  unsigned char *block = NULL;
-  const int failed = fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, trailer, &block) : -1;
-  free(block);
-  return failed;
+  GG_FREED unsigned char *block = NULL;
+  return fstat(fd, &about) == 0 ? sum_up(fd, about.st_size, trailer, &block) : -1;
 }
 
 static const char *broken(int fd, uint64_t *size_of, unsigned char **block, bool *bare)
@@ -125,19 +123,14 @@ static const char *broken(int fd, uint64_t *size_of, unsigned char **block, bool
 
 const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *size, unsigned char **whole, bool *bare)
 {
-  unsigned char *block = NULL;
+  GG_FREED unsigned char *block = NULL;
   *whole = NULL;
   if (!*path) return "the name is empty";
   int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (opened < 0) return strerror(errno);
   const char *why = broken(opened, size, &block, bare);
-  if (why)
-    close(opened);
-  else
-    *fd = opened;
-  if (!why && *size <= GG_TRAILER_SMALL)
-    *whole = block;
-  else
-    free(block);
-  return why;
+  if (why) return close(opened), why;
+  *fd = opened;
+  if (*size <= GG_TRAILER_SMALL) GG_HAND_OVER(whole, block);
+  return NULL;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "base/memory.h"
 #include "files/h5/hdf5_format.h"
 
 static const char other_filter[] =
@@ -66,7 +67,8 @@ bool gg_h5_filters_undo(const gg_h5_array_in *a, unsigned skipped, const unsigne
                         unsigned char *chunk, size_t bytes)
 {
   const size_t room = bytes + 4 * GG_H5_MOST_FILTERS;
-  unsigned char *one = malloc(room), *two = malloc(room), *from = one, *to = two;
+  GG_FREED unsigned char *one = malloc(room), *two = malloc(room);
+  unsigned char *from = one, *to = two;
   const unsigned char *now = stored;
   for (int i = a->n_filters - 1; i >= 0 && n > 0 && one && two; i--) {
     if (skipped >> i & 1) continue;
@@ -82,7 +84,5 @@ bool gg_h5_filters_undo(const gg_h5_array_in *a, unsigned skipped, const unsigne
   }
   const bool good = one && two && n == bytes;
   if (good) memcpy(chunk, now, bytes);
-  free(one);
-  free(two);
   return good;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "files/h5/hdf5_format.h"
 
 /* Headers of objects, version 1: messages in one block, or in several of which one names the next. */
@@ -58,13 +59,12 @@ bool gg_h5_messages(gg_h5_in *in, uint64_t header, gg_h5_look *look, void *conte
   while (w.next && w.left > 0 && !w.done && !in->failed) {
     const uint64_t at = w.next, bytes = w.next_bytes;
     if (bytes > 16 * GG_H5_MOST_HEADER || bytes > in->size) return damaged(in, bad_header);
-    unsigned char *block = malloc(bytes + 1);
+    GG_FREED unsigned char *block = malloc(bytes + 1);
     w.next = 0;
     if (!block)
       gg_h5_in_failed(in, "out of memory");
     else if (gg_h5_bytes(in, at, block, bytes))
       show_block(in, &w, block, bytes);
-    free(block);
   }
   return !in->failed;
 }

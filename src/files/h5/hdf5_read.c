@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "files/h5/hdf5_format.h"
 
 char *gg_h5_read_text(gg_h5_in *in, const char *path)
@@ -22,15 +23,13 @@ static void *read_rows(gg_h5_in *in, const char *path, const gg_h5_array_in *a, 
                        gg_item_type type)
 {
   const uint64_t n = rows * gg_h5_row_size(&a->space);
-  void *raw = calloc(n + 1, a->type.size), *data = calloc(n + 1, gg_base_archive_item_size(type));
+  GG_FREED void *raw = calloc(n + 1, a->type.size);
+  void *data = calloc(n + 1, gg_base_archive_item_size(type));
   bool good = raw && data;
   if (!good) gg_h5_in_failed(in, "out of memory");
   good = good && gg_h5_rows_of(in, path, a, from, rows, raw);
   if (good && !gg_h5_convert(&a->type, raw, type, data, n)) good = gg_h5_refuse(in, path, "holds no numbers");
-  free(raw);
-  if (good) return data;
-  free(data);
-  return NULL;
+  return good ? data : (free(data), NULL);
 }
 
 void *gg_h5_read_array(gg_h5_in *in, const char *path, gg_item_type type, size_t *count)
@@ -241,11 +240,9 @@ static bool read_chunk(gg_h5_in *in, const gg_h5_array_in *a, const stored_chunk
                        uint64_t bytes)
 {
   if (!a->n_filters) return s->bytes == bytes && s->skipped == 0 && gg_h5_bytes(in, s->at, chunk, bytes);
-  unsigned char *stored = s->bytes <= in->size ? malloc(s->bytes + 1) : NULL;
-  const bool good = stored && gg_h5_bytes(in, s->at, stored, s->bytes) &&
-                    gg_h5_filters_undo(a, s->skipped, stored, s->bytes, chunk, bytes);
-  free(stored);
-  return good;
+  GG_FREED unsigned char *stored = s->bytes <= in->size ? malloc(s->bytes + 1) : NULL;
+  return stored && gg_h5_bytes(in, s->at, stored, s->bytes) &&
+         gg_h5_filters_undo(a, s->skipped, stored, s->bytes, chunk, bytes);
 }
 
 static bool read_chunks(gg_h5_in *in, const gg_h5_array_in *a, uint64_t from, uint64_t n, unsigned char *to)
@@ -253,13 +250,12 @@ static bool read_chunks(gg_h5_in *in, const gg_h5_array_in *a, uint64_t from, ui
   uint64_t place[GG_H5_MOST_RANK] = {from / a->chunk[0] * a->chunk[0]}, bytes = a->type.size;
   stored_chunk s;
   for (int i = 0; i < a->space.rank; i++) bytes *= a->chunk[i];
-  unsigned char *chunk = malloc(bytes);
+  GG_FREED unsigned char *chunk = malloc(bytes);
   bool good = chunk != NULL;
   do {
     good = good && find_chunk(in, a, place, &s) && read_chunk(in, a, &s, chunk, bytes);
     if (good) copy_chunk(a, place, chunk, from, n, to);
   } while (good && next_place(a, from + n, place));
-  free(chunk);
   return good;
 }
 

@@ -59,11 +59,10 @@ static void write_units(gg_h5 *h, bool boxed, const gg_model *model, const gg_fr
 
 static void write_frame_of_reference(gg_h5 *h, bool boxed, const gg_model *model)
 {
-  const char *text =
-      !gg_model_is_sheared(model) ? "laboratory: no flow is imposed"
-      : boxed ? "peculiar: relative to the imposed flow; in the laboratory x has shear_rate (y - L_y/2) more, "
-                "y the position and L_y = box/edges/value[1][1]"
-              : "peculiar: relative to the flow at the one point that the ensemble stands for";
+  const char *text = !gg_model_is_sheared(model) ? "laboratory: no flow is imposed"
+                     : boxed ? "peculiar: relative to the imposed flow; in the laboratory x has shear_rate (y - L_y/2) "
+                               "more, y the position and L_y = box/edges/value[1][1]"
+                             : "peculiar: relative to the flow at the one point that the ensemble stands for";
   gg_h5_text_attribute(h, GRAINS "/velocity", "frame", text);
   gg_h5_attribute(h, GRAINS "/velocity", "shear_rate", H5T_NATIVE_DOUBLE, &model->shear_rate, 0);
 }

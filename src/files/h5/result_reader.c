@@ -19,7 +19,8 @@
 void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build)
 {
   int64_t layout = 1; /* the first layout has no number */
-  char *version = gg_h5_read_text(h, "/checkpoint/version"), *identity = NULL, why[300];
+  GG_FREED char *version = gg_h5_read_text(h, "/checkpoint/version"), *identity = NULL;
+  char why[300];
   if (!version) return;
   if (gg_h5_has_attribute(h, "/checkpoint/version", "layout"))
     gg_h5_read_attribute(h, "/checkpoint/version", "layout", GG_ITEM_I64, &layout);
@@ -34,8 +35,6 @@ void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build)
                ? "only a checkpoint of the same layout can be resumed"
                : "numbers may differ; --accept-version (in programs accept_version) resumes it anyway");
   if (layout != GG_CHECKPOINT_LAYOUT || (!same && !any_build)) gg_h5_in_failed(h, why);
-  free(identity);
-  free(version);
 }
 
 static void read_series(gg_h5_in *h, gg_stored_engine *e, const char *observables, const char *name)
@@ -68,9 +67,8 @@ static void read_engine(gg_h5_in *h, gg_stored_engine *e, const char *group, con
   char path[160];
   size_t n = 0;
   snprintf(path, sizeof path, "%s/window", group);
-  double *window = gg_h5_read_array(h, path, GG_ITEM_F64, &n);
+  GG_FREED double *window = gg_h5_read_array(h, path, GG_ITEM_F64, &n);
   if (n == 2) memcpy(e->window, window, sizeof e->window);
-  free(window);
   read_correlations(h, e, group);
   for (int q = 0; q < GG_N_QUANTITIES; q++) read_series(h, e, observables, gg_common_quantity_name((gg_quantity)q));
 }
@@ -97,34 +95,39 @@ static void read_engines(gg_h5_in *h, gg_stored_result *s)
   }
 }
 
-static double *read_last_rows(gg_h5_in *h, const char *what, size_t n)
+#define GRAINS "/particles/grains"
+
+/* One row of numbers into its place. */
+static void read_into(gg_h5_in *h, const char *path, uint64_t k, gg_item_type type, size_t items, void *place)
 {
-  char path[80];
-  snprintf(path, sizeof path, "/particles/grains/%s/value", what);
-  return gg_h5_exists(h, path) ? gg_h5_read_row(h, path, GG_H5_LAST, GG_ITEM_F64, 3 * n) : NULL;
+  GG_FREED void *row = gg_h5_read_row(h, path, k, type, items);
+  if (row) memcpy(place, row, items * gg_base_archive_item_size(type));
+}
+
+/* The k-th frame; grains of dsmc have no positions, smooth ones no spins. */
+static void read_frame(gg_h5_in *h, uint64_t k, gg_frame *f, double edges[9])
+{
+  read_into(h, GRAINS "/velocity/step", k, GG_ITEM_U64, 1, &f->step);
+  read_into(h, GRAINS "/velocity/time", k, GG_ITEM_F64, 1, &f->time);
+  if (gg_h5_exists(h, GRAINS "/position/value")) {
+    f->position = gg_h5_read_row(h, GRAINS "/position/value", k, GG_ITEM_F64, 3 * f->n);
+    read_into(h, GRAINS "/box/edges/value", k, GG_ITEM_F64, 9, edges);
+  }
+  f->velocity = gg_h5_read_row(h, GRAINS "/velocity/value", k, GG_ITEM_F64, 3 * f->n);
+  if (gg_h5_exists(h, GRAINS "/spin/value"))
+    f->spin = gg_h5_read_row(h, GRAINS "/spin/value", k, GG_ITEM_F64, 3 * f->n);
 }
 
 static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
 {
-  gg_frame *f = &s->last;
   size_t kinds = 0;
+  double edges[9] = {0};
   if (!s->n_frames || !s->n_grains) return;
-  f->n = s->n_grains;
-  uint64_t *step = gg_h5_read_row(h, "/particles/grains/velocity/step", GG_H5_LAST, GG_ITEM_U64, 1);
-  double *time = gg_h5_read_row(h, "/particles/grains/velocity/time", GG_H5_LAST, GG_ITEM_F64, 1);
-  if (step) f->step = *step;
-  if (time) f->time = *time;
-  free(step);
-  free(time);
-  f->position = read_last_rows(h, "position", f->n);
-  static const char box[] = "/particles/grains/box/edges/value";
-  double *edges = gg_h5_exists(h, box) ? gg_h5_read_row(h, box, GG_H5_LAST, GG_ITEM_F64, 9) : NULL;
-  for (int a = 0; edges && a < 3; a++) s->edge[a] = edges[4 * a];
-  free(edges);
-  f->velocity = read_last_rows(h, "velocity", f->n);
-  f->spin = read_last_rows(h, "spin", f->n);
-  f->species = gg_h5_read_array(h, "/particles/grains/species", GG_ITEM_U8, &kinds);
-  if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "some of its grains are of an unknown species");
+  s->last.n = s->n_grains;
+  read_frame(h, GG_H5_LAST, &s->last, edges);
+  for (int a = 0; a < 3; a++) s->edge[a] = edges[4 * a];
+  s->last.species = gg_h5_read_array(h, GRAINS "/species", GG_ITEM_U8, &kinds);
+  if (!h->failed && kinds != s->n_grains) gg_h5_in_failed(h, "some of its grains are of an unknown species");
 }
 
 /* It is shown to people. */
@@ -142,14 +145,12 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
   const bool checkpoint = !in->failed && gg_h5_exists(in, "/checkpoint");
   if (checkpoint) gg_files_checkpoint_check_version(in, true);
   if (checkpoint && !in->failed)
-    gg_h5_in_failed(
-        in,
-        "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE, or load it where a simulation was "
-        "saved");
+    gg_h5_in_failed(in, "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE, or load it where a "
+                        "simulation was saved");
   if (!in->failed && gg_h5_exists(in, "/graingas/table"))
     gg_h5_in_failed(in, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
   if (!in->failed && !gg_h5_exists(in, "/graingas/document")) gg_h5_in_failed(in, "it holds no result of graingas");
-  char *text = gg_h5_read_text(in, "/graingas/document");
+  GG_FREED char *text = gg_h5_read_text(in, "/graingas/document");
   s->changed = in->changed;
   s->version = read_line(in, "/graingas/version");
   s->command = read_line(in, "/graingas/command");
@@ -158,13 +159,12 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
   s->scene = gg_h5_read_text(in, "/graingas/scene");
   const char *why = "out of memory";
   s->document = text ? gg_files_document_read(text, &why) : NULL;
-  free(text);
   if (!s->document) gg_h5_in_failed(in, why);
   if (!in->failed) {
     s->comparison = json_object_get(s->document, "comparison") != NULL;
     read_engines(in, s);
-    s->n_frames = gg_h5_count_of(in, "/particles/grains/velocity/step");
-    s->n_grains = gg_h5_count_of(in, "/particles/grains/id");
+    s->n_frames = gg_h5_count_of(in, GRAINS "/velocity/step");
+    s->n_grains = gg_h5_count_of(in, GRAINS "/id");
     read_last_frame(in, s);
   }
   gg_h5_in_close(in);
@@ -234,20 +234,16 @@ static bool is_newer(const char *version)
 
 gg_status gg_files_stored_result_notice(const char *path, char *text, size_t size, gg_error *err)
 {
-  gg_h5_in h;
+  GG_CLEARED(gg_h5_in_close) gg_h5_in h = {.fd = -1};
   gg_h5_open(&h, path, true);
-  char *version = gg_h5_exists(&h, "/graingas/version") ? read_line(&h, "/graingas/version") : NULL;
+  GG_FREED char *version = gg_h5_exists(&h, "/graingas/version") ? read_line(&h, "/graingas/version") : NULL;
   *text = '\0';
   if (h.changed) gg_base_text_append(text, size, "another program has changed it since graingas wrote it");
   if (version && is_newer(version))
     gg_base_text_append(text, size, "%sgraingas %.40s wrote it, and this is %s: what is newer in it is not shown",
                         *text ? "; " : "", version, gg_base_build_version);
-  free(version);
-  gg_h5_in_close(&h);
   return gg_h5_in_status(&h, path, err);
 }
-
-#define GRAINS "/particles/grains"
 
 static void *read_of_each(gg_stored_trajectory *t, const char *path, gg_item_type type)
 {
@@ -286,29 +282,11 @@ gg_status gg_files_stored_trajectory_open(gg_stored_trajectory *t, const char *p
   return gg_h5_in_status(&t->h, path, err);
 }
 
-static double *read_vectors(gg_stored_trajectory *t, const char *path, size_t k)
-{
-  return gg_h5_read_row(&t->h, path, k, GG_ITEM_F64, 3 * t->n);
-}
-
-/* One row of numbers into its place. */
-static void read_into(gg_stored_trajectory *t, const char *path, size_t k, gg_item_type type, size_t items, void *place)
-{
-  void *row = gg_h5_read_row(&t->h, path, k, type, items);
-  if (row) memcpy(place, row, items * gg_base_archive_item_size(type));
-  free(row);
-}
-
 gg_status gg_files_stored_trajectory_frame(gg_stored_trajectory *t, size_t k, gg_frame *frame, double edges[9],
                                            gg_error *err)
 {
   *frame = (gg_frame){.n = t->n};
-  read_into(t, GRAINS "/velocity/step", k, GG_ITEM_U64, 1, &frame->step);
-  read_into(t, GRAINS "/velocity/time", k, GG_ITEM_F64, 1, &frame->time);
-  read_into(t, GRAINS "/box/edges/value", k, GG_ITEM_F64, 9, edges);
-  frame->position = read_vectors(t, GRAINS "/position/value", k);
-  frame->velocity = read_vectors(t, GRAINS "/velocity/value", k);
-  if (t->spin_unit) frame->spin = read_vectors(t, GRAINS "/spin/value", k);
+  read_frame(&t->h, k, frame, edges);
   gg_status status = gg_h5_in_status(&t->h, t->path, err);
   if (status != GG_OK) gg_measure_frame_free(frame);
   return status;

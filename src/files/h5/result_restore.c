@@ -59,8 +59,9 @@ static gg_status add_theory(const char *name, const json_t *about, gg_extension 
   return gg_theory_user_theory_add(x, &t, err);
 }
 
-gg_status gg_files_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension,
-                                    gg_error *err)
+/* User-defined quantities in the `results` of an engine's document, and user-defined theories in the `theories` (NULL:
+ * none) of a comparison. *extension is NULL if there are none; else to be released. */
+static gg_status read_extension(const json_t *results, const json_t *theories, gg_extension **extension, gg_error *err)
 {
   gg_extension *x = NULL;
   gg_status status = add_quantities(results, &x, err);
@@ -222,7 +223,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   GG_TRY(gg_files_stored_scene(s, engine, &scene, &r->model, err));
   scene.engine = engine;
   if (!(r->scene = gg_scene_copy_new(&scene, err))) return GG_FAILED;
-  GG_TRY(gg_files_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
+  GG_TRY(read_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
   r->model.extension = r->own;
   gg_run_result_label(r);
   r->engine = gg_common_engine_of(engine)->name;
@@ -250,15 +251,11 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
 
 gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engine, gg_result **result, gg_error *err)
 {
-  gg_result *r = gg_base_array_new(1, sizeof *r, err);
+  GG_CLEARED(gg_run_result_freed) gg_result *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return GG_FAILED;
   const unsigned before = gg_base_memory_failures(); /* for a warning that is lost */
-  gg_status status = gg_base_memory_check(before, restore_all(r, s, engine, err), err);
-  if (status == GG_OK)
-    *result = r;
-  else
-    gg_run_result_free(r);
-  return status;
+  GG_TRY(gg_base_memory_check(before, restore_all(r, s, engine, err), err));
+  return GG_HAND_OVER(result, r), GG_OK;
 }
 
 /* Restore the answers of theories as stored. They are not computed anew: theories may have changed, and a user's
@@ -302,8 +299,7 @@ static gg_status restore_own(gg_comparison *c, const json_t *document, gg_error 
 {
   const json_t *md = json_object_get(document, "md"),
                *part = json_is_object(md) ? md : json_object_get(document, "dsmc");
-  GG_TRY(
-      gg_files_stored_extension(json_object_get(part, "results"), json_object_get(document, "theories"), &c->own, err));
+  GG_TRY(read_extension(json_object_get(part, "results"), json_object_get(document, "theories"), &c->own, err));
   c->model.extension = c->own;
   gg_run_rows_make(&c->model, &c->rows);
   return GG_OK;

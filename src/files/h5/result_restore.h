@@ -20,9 +20,4 @@ gg_status gg_files_comparison_restore(const gg_stored_result *stored, gg_compari
 /* Quantities and theories that the program which wrote a file had brought (graingas.h, "Extension"): their names and
  * units, so that what was stored of them is found again. The callbacks stayed with that program. */
 
-/* User-defined quantities in the `results` of an engine's document, and user-defined theories in the `theories` (NULL:
- * none) of a comparison. *extension is NULL if there are none; else to be released. */
-gg_status gg_files_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension,
-                                    gg_error *err);
-
 #endif

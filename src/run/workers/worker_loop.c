@@ -89,7 +89,7 @@ static void answer(worker_process *s, remote_run *r, int i, gg_status status, co
 {
   const gg_run_task *t = &r->tasks.task[i];
   gg_run_message m = r->pending[i].message;
-  gg_archive archive = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   size_t size;
   m.kind = GG_MESSAGE_DONE;
   m.error = *why;
@@ -101,7 +101,6 @@ static void answer(worker_process *s, remote_run *r, int i, gg_status status, co
   m.status = status;
   r->pending[i].busy = false;
   void *block = gg_run_message_pack_archive(&m, &archive, &size);
-  gg_base_archive_clear(&archive);
   if (!block) s->over = true; /* it ends, so that nobody waits for the answer: others do the task again */
   send(s, block, size);
 }
@@ -110,14 +109,12 @@ static void answer(worker_process *s, remote_run *r, int i, gg_status status, co
 static gg_status get_ready(remote_run *r, const gg_run_message *m, const void *block, size_t size, gg_error *err)
 {
   gg_replica *replica = &r->replica[m->replica];
-  gg_archive archive = {0};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   if (m->origin == GG_ORIGIN_THERE) return GG_OK;
   gg_run_replica_clear(replica);
   if (m->origin == GG_ORIGIN_NEW) return GG_OK;
-  gg_status status = gg_run_message_archive(block, size, &archive, err);
-  if (status == GG_OK) status = gg_run_replica_restore(replica, &archive, &r->scene, &r->model, (int)m->replica, err);
-  gg_base_archive_clear(&archive);
-  return status;
+  GG_TRY(gg_run_message_archive(block, size, &archive, err));
+  return gg_run_replica_restore(replica, &archive, &r->scene, &r->model, (int)m->replica, err);
 }
 
 static void start_task(worker_process *s, const gg_run_message *m, const void *block, size_t size)
@@ -226,8 +223,7 @@ static gg_status once(worker_process *s, bool *any, gg_error *err)
 gg_status gg_worker_run(const gg_messages *messages, gg_error *err)
 {
   if (!messages || !messages->send || !messages->receive || messages->rank < 1)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "gg_worker_run: messages of a rank above 0, with send and receive, are needed");
+    return GG_REFUSE(err, "gg_worker_run: messages of a rank above 0, with send and receive, are needed");
   worker_process s = {.messages = messages, .reported = gg_base_clock_wall()};
   gg_status status = GG_OK;
   bool any = true;

@@ -97,13 +97,10 @@ static int threads_each(const distribution *d)
 
 static void *pack(const gg_run_task *t, gg_run_message *m, bool there, size_t *size)
 {
-  gg_archive archive = {0};
-  void *block = NULL;
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   m->origin = !t->replica->engine ? GG_ORIGIN_NEW : there ? GG_ORIGIN_THERE : GG_ORIGIN_ARCHIVE;
-  if (m->origin != GG_ORIGIN_ARCHIVE || gg_run_replica_save(t->replica, &archive, NULL) == GG_OK)
-    block = gg_run_message_pack_archive(m, &archive, size);
-  gg_base_archive_clear(&archive);
-  return block;
+  if (m->origin == GG_ORIGIN_ARCHIVE && gg_run_replica_save(t->replica, &archive, NULL) != GG_OK) return NULL;
+  return gg_run_message_pack_archive(m, &archive, size);
 }
 
 static bool send_scene(distribution *d, int to)
@@ -155,38 +152,34 @@ static void place_task(distribution *d, gg_run_task *t)
 static void send(gg_run_task *t)
 {
   distribution *d = t->run->distribution;
-  pthread_mutex_lock(&d->workers->lock);
+  GG_LOCKED(&d->workers->lock);
   place_task(d, t);
-  pthread_mutex_unlock(&d->workers->lock);
 }
 
 static void stop(gg_run_tasks *tasks)
 {
   distribution *d = tasks->distribution;
-  pthread_mutex_lock(&d->workers->lock);
+  GG_LOCKED(&d->workers->lock);
   for (int i = 0; i < tasks->n; i++)
     if (d->placed[i].sent) send_word(d->workers, d->placed[i].owner, GG_MESSAGE_STOP, d->run);
-  pthread_mutex_unlock(&d->workers->lock);
 }
 
 /* The replica as it came back takes the place of the one that is here. */
 static gg_status unpack(gg_run_task *t, const void *block, size_t size, bool *restored)
 {
-  gg_archive archive = {0};
-  gg_status status = gg_run_message_archive(block, size, &archive, &t->err);
-  *restored = status == GG_OK && archive.n_items;
-  if (*restored) {
-    gg_run_replica_clear(t->replica);
-    status = gg_run_replica_restore(t->replica, &archive, t->run->scene, t->run->model, t->index, &t->err);
-  }
-  gg_base_archive_clear(&archive);
-  return status;
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
+  *restored = false;
+  GG_TRY(gg_run_message_archive(block, size, &archive, &t->err));
+  if (!archive.n_items) return GG_OK;
+  *restored = true;
+  gg_run_replica_clear(t->replica);
+  return gg_run_replica_restore(t->replica, &archive, t->run->scene, t->run->model, t->index, &t->err);
 }
 
 static void collect(gg_run_tasks *tasks)
 {
   distribution *d = tasks->distribution;
-  pthread_mutex_lock(&d->workers->lock);
+  GG_LOCKED(&d->workers->lock);
   for (int i = 0; i < tasks->n; i++) {
     placed *p = &d->placed[i];
     void *block = p->block;
@@ -200,7 +193,6 @@ static void collect(gg_run_tasks *tasks)
     pthread_mutex_lock(&d->workers->lock);
     if (restored) p->there = status == GG_OK && p->owner == p->from;
   }
-  pthread_mutex_unlock(&d->workers->lock);
 }
 
 static const gg_run_remote over_ranks = {send, stop, collect};
@@ -246,10 +238,9 @@ void gg_run_distribution_changed(gg_run_tasks *tasks)
 {
   distribution *d = tasks->distribution;
   if (!d) return;
-  pthread_mutex_lock(&d->workers->lock);
+  GG_LOCKED(&d->workers->lock);
   for (int i = 0; i < tasks->n; i++)
     if (d->placed[i].owner != 0) d->placed[i].there = false;
-  pthread_mutex_unlock(&d->workers->lock);
 }
 
 /* Give the tasks of a lost rank to others, from the last state of each replica that arrived here. */
@@ -361,14 +352,13 @@ static bool receive(gg_workers *w)
 static void read_mailbox(void *context)
 {
   gg_workers *w = context;
-  pthread_mutex_lock(&w->lock);
+  GG_LOCKED(&w->lock);
   for (int nap = 0; !w->over;) {
     nap = gg_run_message_nap(nap, receive(w));
     pthread_mutex_unlock(&w->lock);
     usleep((useconds_t)nap);
     pthread_mutex_lock(&w->lock);
   }
-  pthread_mutex_unlock(&w->lock);
 }
 
 /* All register at about the same time; one that is late is given work when there is more. */
@@ -391,7 +381,7 @@ int gg_workers_threads(const gg_workers *w)
 gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err)
 {
   if (!messages || !workers || !messages->send || !messages->receive || messages->rank != 0 || messages->size < 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_workers_new: messages of rank 0, with send and receive, are needed");
+    return GG_REFUSE(err, "gg_workers_new: messages of rank 0, with send and receive, are needed");
   gg_workers *w = gg_base_array_new(1, sizeof *w, err);
   if (!w) return GG_FAILED;
   w->messages = *messages;
