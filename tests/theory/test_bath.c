@@ -278,8 +278,9 @@ static void stresses_end_in_the_steady_state(void **state)
     const gg_model m = model_of(&s);
     gg_relaxing x = gg_theory_relaxation_start(&m);
     gg_theory_relax(&m, 60, &x);
+    const gg_theory_answer end = answer_of(&gg_theory_gaussian_closure, &m);
     for (size_t q = 0; q < sizeof all / sizeof *all; q++)
-      assert_close(gg_theory_relaxation_value(&m, &x, all[q]), value_of(&gg_theory_gaussian_closure, &m, all[q]), 2e-5);
+      assert_close(gg_theory_relaxation_value(&m, &x, all[q]), end.value[all[q]], 2e-5);
   }
 }
 
