@@ -111,7 +111,7 @@ static const char caption[] =
     "Processor time that each observable adds at its own cadence, in per cent of the run without it, timed in turn "
     "with it: median (least - largest) of repeats. rheology: against an engine that is not sampled. Uniform shear, e = "
     "0.9, rough grains (beta = 0); sonine and conductivity (of smooth grains) in free cooling, profiles in Couette "
-    "flow, viscosity in its flow. -: cannot be had, or only of elastic grains";
+    "flow, viscosity in its flow. -: cannot be had, or only of elastic grains or a wave";
 
 static const double densities[] = {0.01, 0.3};
 static const int64_t sizes[] = {500, 4000, 32000}, quick_sizes[] = {500, 2000, 4000};

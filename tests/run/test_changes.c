@@ -200,6 +200,7 @@ static const struct {
     {COOLING "{e: 0.9, beta: 0.5}", "collision.beta: -0.3"},
     {COOLING "{e: 0.9, beta: 0.5}", "collision.mu: 0.3"},
     {COOLING "{e: 0.9, beta: 0.5, mu: 0.3}", "collision.mu: .inf"},
+    {COOLING "{e: 0.9}, start: {wave: 0.3}, aspect: [1, 2, 1]", "collision.e: 0.7"},
 };
 
 /* Followed runs have neither walls nor small_shear. */
