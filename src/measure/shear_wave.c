@@ -231,8 +231,8 @@ static gg_curve *put_curve(const decaying *d, const char *name, const char *symb
   return c;
 }
 
-/* Fraction by which the decay rate of a dilute elastic gas is higher than at k = 0, over (k l)^2: Grad's equations of 13
- * moments, with the relaxation time tau of the stress, give 2/5 tau^2 T k^2/m. */
+/* Fraction by which the decay rate of a dilute elastic gas is higher than at k = 0, over (k l)^2: Grad's equations of
+ * 13 moments, with the relaxation time tau of the stress, give 2/5 tau^2 T k^2/m. */
 #define CORRECTION 0.25
 
 static void curves(const void *self, const double *bins, gg_curves *list)

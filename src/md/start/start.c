@@ -153,8 +153,7 @@ static void add_wave(gg_md *e)
     const gg_md_grain *g = &e->grain[i];
     gg_wave_add(&sums, m->mass[gg_md_species_of(g)], gg_wave_profile(m, g->r.y), g->v.x);
   }
-  for (uint32_t i = 0; i < e->n; i++)
-    e->grain[i].v.x += gg_wave_start(m, &sums, gg_wave_profile(m, e->grain[i].r.y));
+  for (uint32_t i = 0; i < e->n; i++) e->grain[i].v.x += gg_wave_start(m, &sums, gg_wave_profile(m, e->grain[i].r.y));
 }
 
 /* Draw Gaussian spins with exactly sum K m s^2 = 3 N theta, since perfectly rough grains conserve their total energy.
