@@ -3,7 +3,7 @@
  * constant temperature, in a gas that cools and is rescaled on the way, with a Gaussian thermostat and in a bath; the
  * curve is the planted amplitude. The wave of an elastic gas decays by Enskog's viscosity, dilute and dense, in Monte
  * Carlo and in md, and in Monte Carlo that of a gas heated by white noise and of a cooling one by theirs; a run that is
- * resumed has the same bits. */
+ * resumed has the same bits. Daily md of the elastic gas and Monte Carlo of the cooling one run, the others nightly. */
 #include "common/shear_wave.h"
 #include "curve_test.h"
 #include "graingas.h"
@@ -142,9 +142,11 @@ static void elastic_waves_decay_by_enskogs_viscosity(void **state)
   (void)state;
   gg_scene s = wave_scene(GG_DSMC, GG_HCS, GG_NO_THERMOSTAT, 0.1, 1);
   s.particles = 2000, s.dsmc.particles = 40000, s.aspect[1] = 2.5, s.run.duration = 100;
-  expect(&s, theory_of(&s, "enskog_hermite"), 0.02, 0.007);
-  s.phi = 0.3, s.aspect[1] = 1, s.run.duration = 13;
-  expect(&s, theory_of(&s, "enskog_hermite"), 0.025, 0.007);
+  if (getenv("NIGHTLY")) {
+    expect(&s, theory_of(&s, "enskog_hermite"), 0.02, 0.007);
+    s.phi = 0.3, s.aspect[1] = 1, s.run.duration = 13;
+    expect(&s, theory_of(&s, "enskog_hermite"), 0.025, 0.007);
+  }
   s = wave_scene(GG_MD, GG_HCS, GG_NO_THERMOSTAT, 0.1, 1);
   s.particles = 2000, s.aspect[1] = 1.6, s.run.duration = 55, s.run.replicas = 16, s.start.wave = 0.5;
   expect(&s, theory_of(&s, "enskog_hermite"), 0.035, 0.012);
@@ -155,12 +157,12 @@ static void heated_and_cooling_waves_decay_by_their_viscosity(void **state)
   (void)state;
   gg_scene s = wave_scene(GG_DSMC, GG_HSS, GG_WHITE_NOISE, 0.3, 0.8);
   s.particles = 2000, s.dsmc.particles = 40000, s.run.duration = 12, s.start.wave = 0.5;
-  expect(&s, theory_of(&s, "enskog_hermite"), 0.03, 0.01);
+  if (getenv("NIGHTLY")) expect(&s, theory_of(&s, "enskog_hermite"), 0.03, 0.01);
   s = wave_scene(GG_DSMC, GG_HCS, GG_NO_THERMOSTAT, 0.3, 0.9);
   s.particles = 573, s.dsmc.particles = 40000, s.run.duration = 15;
   expect(&s, theory_of(&s, "enskog_hermite"), 0.03, 0.01);
   s.flow = GG_HSS, s.thermostat = GG_GAUSSIAN, s.run.duration = 6;
-  expect(&s, theory_of(&s, "enskog_hermite"), 0.03, 0.01);
+  if (getenv("NIGHTLY")) expect(&s, theory_of(&s, "enskog_hermite"), 0.03, 0.01);
 }
 
 static void other_gases_have_none(void **state)
