@@ -55,9 +55,19 @@ def of(context):
 
 class _Task:
     def __init__(self, function, call):
-        self.function, self.done, self.first = function, threading.Event(), threading.Lock()
+        self.function, self.first = function, threading.Lock()
         self.call = call  # lives as long as the thread
         self.value = self.error = None
+        self.ended, self.running = False, threading.Lock()  # held until the work has ended
+        self.running.acquire()
+
+    def wait(self):
+        """Waits for the end, for PERIOD at most; returns whether it came. Not by threading.Event: a Ctrl-C inside its
+        wait can leave its lock released twice, and the thread that sets it then fails.
+        """
+        if not self.ended and self.running.acquire(timeout=PERIOD):
+            self.running.release()
+        return self.ended
 
     def cancel(self):
         """Prevents work that has not begun, and returns whether it did. A thread may begin after the Ctrl-C that came
@@ -73,7 +83,8 @@ class _Task:
         except BaseException as error:
             self.error = error
         finally:
-            self.done.set()
+            self.ended = True
+            self.running.release()
 
 
 def interruptible(function, call, poll=None):
@@ -82,12 +93,12 @@ def interruptible(function, call, poll=None):
     task = _Task(function, call)
     thread = threading.Thread(target=task.work, daemon=True, name="graingas")
     started = False
-    while not task.done.is_set():
+    while not task.ended:
         try:
             if not started:
                 started = True
                 thread.start()
-            if not task.done.wait(PERIOD) and poll:
+            if not task.wait() and poll:
                 poll(call)
         except KeyboardInterrupt:
             call.interrupt()
@@ -122,7 +133,7 @@ def left_behind(function, call=None, words=""):
         return _outcome(task, call)
     try:
         threading.Thread(target=task.work, daemon=True, name="graingas").start()
-        while not task.done.wait(PERIOD):  # with a limit: a signal just before a wait without end would be handled late
+        while not task.wait():  # with a limit: a signal just before a wait without end would be handled late
             pass
     except KeyboardInterrupt:
         if call is not None:
