@@ -46,7 +46,7 @@ def in_root(root, code, timeout=3600):
     """bash -e in that root; what it prints. /proc and /dev are those of the machine, and leave with the root's processes."""
     wrapped = 'mount -t proc proc "$0/proc"; mount --bind /dev "$0/dev"; cp /etc/resolv.conf "$0/etc/"; exec chroot "$0" bash -ec "$1"'
     done = subprocess.run(["unshare", "--mount", "sh", "-ec", wrapped, root, code], capture_output=True, text=True, timeout=timeout,
-                          env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "DEBIAN_FRONTEND": "noninteractive"})
+                          env={"PATH": "/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "DEBIAN_FRONTEND": "noninteractive"})
     check(done.returncode == 0, code, done.stdout[-2000:], done.stderr[-3000:])
     return done.stdout
 
@@ -83,13 +83,13 @@ def stages():
 
 def test_container():
     """Each stage of the recipe in a root of its own: its packages are enough to build, and to run."""
-    build, run = ([rest for word, rest in stage if word == "RUN"] for stage in stages())
+    build, run = ([f"({rest})" for word, rest in stage if word == "RUN"] for stage in stages())  # -e sees a && b fail
     in_bare_debian("build", "\n".join(build))
     in_bare_debian("run", run[0])
     subprocess.run(["cp", "-a", "build/installed/.", "run"], check=True)
     variables = "\n".join(f"export {rest}" for word, rest in stages()[1] if word == "ENV")
-    found = in_root("run", variables + "\n" + "\n".join(run[1:]) + "\ngraingas theory /source/examples/usf.yaml --quiet | head -30")
-    check("enskog_hermite" in found or "lun1991" in found, found)
+    found = in_root("run", variables + "\n" + "\n".join(run[1:]) + "\ngraingas theory /source/examples/usf.yaml")
+    check("lun1991" in found, found)
 
 
 if __name__ == "__main__":
