@@ -185,7 +185,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
 {
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
   const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
-  const bool fluctuates = rests && !m->ensemble;
+  const bool fluctuates = rests && !m->ensemble && !(m->wave > 0);
   const bool noisy = m->bath.on || m->kicks || m->turns || gg_common_heat_of(m) == GG_HEAT_KICKS;
   const bool turned = gg_common_model_is_turned(m), sheared = gg_model_is_sheared(m);
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
@@ -220,7 +220,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_ONE_SPECIES, m->n_species > 1, "see c_1 and c_2 for mixtures"},
       {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response && !fluctuates && !(m->wave > 0),
        "needs flow: small_shear, start.wave, or md of elastic grains at rest"},
-      {GG_NEEDS_FLUCTUATIONS, !fluctuates, "measured in md of elastic grains at rest"},
+      {GG_NEEDS_FLUCTUATIONS, !fluctuates, "measured in md of elastic grains at rest, without start.wave"},
       {GG_NEEDS_THEORY, true, "given by theories only; see graingas theory"},
       {GG_NEEDS_HEAT_FLUX, sheared || m->walled || heated, "only in cooling gases and at rest"},
       {GG_NEEDS_HEAT_FLUX, m->n_species > 1 || m->rule == GG_FRICTIONAL, "measured of one species without friction"},
@@ -246,7 +246,8 @@ const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
     const char *words;
   } words[] = {
       {GG_NEEDS_THEORY, "theories only"},
-      {GG_NEEDS_LINEAR_RESPONSE, "flow: small_shear; start.wave; md of elastic grains at rest with measure: helfand"},
+      {GG_NEEDS_LINEAR_RESPONSE,
+       "flow: small_shear; start.wave (viscosity_reduced); md of elastic grains at rest with measure: helfand"},
       {GG_NEEDS_FLUCTUATIONS, "md of elastic grains at rest with measure: helfand"},
       {GG_NEEDS_HEAT_FLUX, "dsmc with measure: conductivity, cooling or at rest; md of elastic grains with measure: "
                            "helfand (smooth grains); one species"},

@@ -208,6 +208,11 @@ static bool takes_start(gg_flow flow)
   return !gg_flow_is_walled(flow) && !gg_flow_of(flow)->linear_response;
 }
 
+static bool takes_wave(gg_flow flow)
+{
+  return takes_start(flow) && !gg_flow_is_sheared(flow);
+}
+
 static gg_status check_start(const gg_scene *s, gg_error *err)
 {
   const gg_scene defaults = gg_scene_defaults();
@@ -219,9 +224,9 @@ static gg_status check_start(const gg_scene *s, gg_error *err)
       return GG_REFUSE(err, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
                        gg_flow_of(s->flow)->word, flows);
   }
-  if (s->start.wave > 0 && gg_flow_is_sheared(s->flow))
-    return GG_REFUSE(err, "key 'start.wave': flow: %s is sheared; use flow: equilibrium, hcs or hss",
-                     gg_flow_of(s->flow)->word);
+  gg_common_flow_list(takes_wave, flows, sizeof flows);
+  if (s->start.wave > 0 && !takes_wave(s->flow))
+    return GG_REFUSE(err, "key 'start.wave': not in flow: %s; allowed in flow: %s", gg_flow_of(s->flow)->word, flows);
   return GG_OK;
 }
 

@@ -37,6 +37,7 @@
   S(LOCAL, "without measure: [local_distributions]", "measure has local_distributions",                                \
     (s->measure & GG_MEASURE_LOCAL_DISTRIBUTIONS) != 0)                                                                \
   F(HEATED, "but in flow: ", "", gg_flow_is_heated)                                                                    \
+  F(WAVY, "but in flow: ", "", takes_wave)                                                                             \
   F(STARTED, "but in flow: ", "", takes_start)                                                                         \
   S(THERMAL_WALLS, "while walls.temperature is none", "walls.temperature is given",                                    \
     s->walls.temperature[0] != GG_AUTO)                                                                                \

@@ -168,7 +168,7 @@ const gg_field gg_scene_fields[] = {
     {KEY(NUMBER, start.wave), 0, 1,
      .doc = "amplitude of a transverse wave u_x = wave v_0 sin(2 pi y/L_y), v_0 = sqrt(2 T/m): shear_wave measures its "
             "decay; the box is then long enough along y, unless aspect is given",
-     .when = IF(STARTED) | IF(FOLLOWED)},
+     .when = IF(WAVY) | IF(FOLLOWED)},
     {KEY(FILE, start.positions), .words = placements, .special = "random",
      .doc = "initial positions: random, a face-centred lattice (fcc), or those of a file in the scene's unit of "
             "length, without overlaps; its path is relative to the scene's file, and only a start reads it",

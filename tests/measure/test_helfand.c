@@ -136,6 +136,8 @@ static void models_without_it_give_the_reason(void **state)
         if (gg_scene_model_make(&s, (gg_engine_kind)engine, &m, NULL) != GG_OK) continue;
         const bool fine = elastic && engine == GG_MD && (flow == GG_EQUILIBRIUM || flow == GG_HCS);
         assert_int_equal(helfand->refuses(&m) == NULL, fine);
+        m.wave = 0.3; /* its stress is no fluctuation */
+        assert_non_null(helfand->refuses(&m));
       }
 }
 

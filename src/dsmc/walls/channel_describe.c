@@ -31,7 +31,8 @@ gg_status gg_dsmc_channel_accepts(const gg_model *m, gg_error *err)
   if (m->n < 2 || m->n > UINT32_MAX / 2)
     return gg_base_fail(err, GG_BAD_INPUT, "dsmc.particles: %lld; allowed: 2 to %u", (long long)m->n, UINT32_MAX / 2);
   if (m->single)
-    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.precision: between walls velocities are kept in double precision");
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "dsmc.precision: between walls, and with start.wave, velocities are kept in double precision");
   if (m->time_step == 0 || m->time_step > 1)
     return gg_base_fail(err, GG_BAD_INPUT, "dsmc.time_step: in mean free times, above 0 and up to 1, or auto");
   return GG_OK;
