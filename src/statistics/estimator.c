@@ -248,7 +248,7 @@ gg_mean gg_statistics_estimate_over_runs(const double *const *row, size_t n_runs
     sum += d, squares += d * d;
   }
   m.blocks = n_runs;
-  m.scatter = sqrt((n - 1) / n * fmax(squares - sum * sum / n, 0));
+  m.scatter = sqrt((n - 1) / n * fmax(squares - sum * sum / n, 0)) + 0 * squares; /* NaN stays NaN */
   m.error = m.scatter * gg_statistics_student(n_runs);
   return m;
 }

@@ -239,6 +239,25 @@ static void short_runs(void **state)
   }
 }
 
+/* A ratio that is unknown below 0: of three runs, without one of which it is unknown, the error is unknown, not 0. */
+static double positive_ratio(const double *mean, const gg_model *m)
+{
+  (void)m;
+  return mean[1] > 0 ? mean[0] / mean[1] : NAN;
+}
+
+static void a_mean_that_hangs_on_one_run_has_no_error(void **state)
+{
+  (void)state;
+  const double a[] = {1, 5}, b[] = {1, -1}, c[] = {1, -2};
+  const double *rows[] = {a, b, c};
+  double scratch[4];
+  gg_mean m = gg_statistics_estimate_over_runs(rows, 3, 2, (gg_function){.of = positive_ratio}, NULL, scratch);
+  assert_true(fabs(m.mean - 1.5) < 1e-12 && isnan(m.error) && isnan(m.scatter));
+  m = gg_statistics_estimate_over_runs(rows, 2, 2, (gg_function){.of = positive_ratio}, NULL, scratch);
+  assert_true(isfinite(m.mean) && isnan(m.error));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors),
@@ -249,6 +268,7 @@ int main(void)
                                      cmocka_unit_test(errors_include_the_memory_of_the_parts),
                                      cmocka_unit_test(replicas_are_pooled),
                                      cmocka_unit_test(short_runs),
+                                     cmocka_unit_test(a_mean_that_hangs_on_one_run_has_no_error),
                                      cmocka_unit_test(doubt_of_slow_modes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
