@@ -39,5 +39,5 @@ def test_a_box_of_the_user_stays():
 
 
 def test_sheared_flows_reject_a_wave():
-    with pytest.raises(gg.GraingasError, match="start.wave.*sheared"):
+    with pytest.raises(gg.GraingasError, match="start.wave.*allowed in flow: equilibrium"):
         gg.run(gg.Scene(**{**SCENE, "flow": "usf"}))

@@ -107,8 +107,8 @@ static void planted_waves_have_their_viscosity(void **state)
   }
 }
 
-/* Where noise has turned the wave of a replica round before the first sample that counts, its rows count all the same:
- * means over replicas would be biased without them. */
+/* Noise may reverse a small wave in one replica. Its rows count, too: means over replicas would be biased without them.
+ */
 static void rows_are_linear_in_the_wave(void **state)
 {
   (void)state;
