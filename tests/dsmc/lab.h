@@ -165,4 +165,21 @@ static inline void lab_average(gg_engine *g, const gg_model *m, double warmup, i
   }
 }
 
+/* Both engines store the same bits. */
+static inline void lab_same_archive(gg_engine *a, gg_engine *b)
+{
+  gg_archive one = {0}, two = {0};
+  gg_error err = {0};
+  assert_int_equal(a->ops->save(a, &one, &err), GG_OK);
+  assert_int_equal(b->ops->save(b, &two, &err), GG_OK);
+  assert_int_equal(one.n_items, two.n_items);
+  for (size_t i = 0; i < one.n_items; i++) {
+    assert_int_equal(one.items[i].count, two.items[i].count);
+    assert_memory_equal(one.items[i].data, two.items[i].data,
+                        one.items[i].count * gg_base_archive_item_size(one.items[i].type));
+  }
+  gg_base_archive_clear(&one);
+  gg_base_archive_clear(&two);
+}
+
 #endif

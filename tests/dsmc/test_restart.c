@@ -4,20 +4,6 @@
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
-static void same_archive(gg_engine *a, gg_engine *b)
-{
-  gg_archive one = {0}, two = {0};
-  gg_error err = {0};
-  assert_int_equal(gg_dsmc_ops.save(a, &one, &err), GG_OK);
-  assert_int_equal(gg_dsmc_ops.save(b, &two, &err), GG_OK);
-  assert_int_equal(one.n_items, two.n_items);
-  for (size_t i = 0; i < one.n_items; i++)
-    assert_memory_equal(one.items[i].data, two.items[i].data,
-                        one.items[i].count * gg_base_archive_item_size(one.items[i].type));
-  gg_base_archive_clear(&one);
-  gg_base_archive_clear(&two);
-}
-
 static void restart(gg_flow flow, double phi, double beta, int64_t n, int species, gg_precision precision)
 {
   gg_scene s = lab_scene(flow, phi, 0.8, beta, n);
@@ -34,7 +20,7 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n, int specie
   assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
   lab_advance(straight, INFINITY, 3 * (uint64_t)n);
   lab_advance(resumed, INFINITY, 3 * (uint64_t)n);
-  same_archive(straight, resumed);
+  lab_same_archive(straight, resumed);
   gg_dsmc_ops.destroy(straight);
   gg_dsmc_ops.destroy(resumed);
 
@@ -106,7 +92,7 @@ static void restarts_without_its_callback(void **state)
   assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_OK);
   lab_advance(straight, INFINITY, 3000);
   lab_advance(resumed, INFINITY, 3000);
-  same_archive(straight, resumed);
+  lab_same_archive(straight, resumed);
   assert_int_equal(told, then.collisions);
   gg_base_archive_clear(&archive);
   gg_dsmc_ops.destroy(straight);
@@ -235,7 +221,7 @@ static void stopped_runs_end_as_uninterrupted_ones(void **state)
     }
     assert_true(stops > 0);
     assert_true(gone == whole);
-    same_archive(straight, cut);
+    lab_same_archive(straight, cut);
     gg_dsmc_ops.destroy(straight);
     gg_dsmc_ops.destroy(cut);
   }

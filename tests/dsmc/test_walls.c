@@ -111,22 +111,6 @@ static void what_is_lost_is_accounted_for(void **state)
   balance(&s);
 }
 
-static void same_archive(gg_engine *a, gg_engine *b)
-{
-  gg_archive one = {0}, two = {0};
-  gg_error err = {0};
-  assert_int_equal(a->ops->save(a, &one, &err), GG_OK);
-  assert_int_equal(b->ops->save(b, &two, &err), GG_OK);
-  assert_int_equal(one.n_items, two.n_items);
-  for (size_t i = 0; i < one.n_items; i++) {
-    assert_int_equal(one.items[i].count, two.items[i].count);
-    assert_memory_equal(one.items[i].data, two.items[i].data,
-                        one.items[i].count * gg_base_archive_item_size(one.items[i].type));
-  }
-  gg_base_archive_clear(&one);
-  gg_base_archive_clear(&two);
-}
-
 /* Rough grains of two species under gravity, between thermal walls. */
 static gg_scene full_scene(int64_t n)
 {
@@ -163,7 +147,7 @@ static void instructions_leave_the_plain_bits(gg_scene s, bool blocks)
     ((gg_dsmc_channel *)fast)->collide = gg_dsmc_channel_collide_of[set];
     fast->ops->keep_sums(fast, true);
     advance(fast, INFINITY, (uint64_t)(5 * m.n));
-    same_archive(fast, plain);
+    lab_same_archive(fast, plain);
     fast->ops->destroy(fast);
   }
   plain->ops->destroy(plain);
@@ -199,7 +183,7 @@ static void threads_leave_bits(gg_scene s)
     advance(more, INFINITY, (uint64_t)(5 * m.n));
     more->ops->state(more, &at);
     assert_true(at.others_cpu > 0);
-    same_archive(more, one);
+    lab_same_archive(more, one);
     more->ops->destroy(more);
   }
   one->ops->destroy(one);
@@ -263,7 +247,7 @@ static void stopped_runs_end_as_uninterrupted_ones(void **state)
       status = cut->ops->go_on(cut, &gone, &err);
     }
     assert_true(stops > 2 && gone == whole && seen[0] == seen[1] && (seen[0] > 0) == callback);
-    same_archive(straight, cut);
+    lab_same_archive(straight, cut);
     straight->ops->destroy(straight);
     cut->ops->destroy(cut);
   }

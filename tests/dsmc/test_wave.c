@@ -68,20 +68,6 @@ static double advance(gg_engine *g, double dt, uint64_t collisions)
   return elapsed;
 }
 
-static void same_archive(gg_engine *a, gg_engine *b)
-{
-  gg_archive one = {0}, two = {0};
-  gg_error err = {0};
-  assert_int_equal(a->ops->save(a, &one, &err), GG_OK);
-  assert_int_equal(b->ops->save(b, &two, &err), GG_OK);
-  assert_int_equal(one.n_items, two.n_items);
-  for (size_t i = 0; i < one.n_items; i++)
-    assert_memory_equal(one.items[i].data, two.items[i].data,
-                        one.items[i].count * gg_base_archive_item_size(one.items[i].type));
-  gg_base_archive_clear(&one);
-  gg_base_archive_clear(&two);
-}
-
 static void momentum_and_energy_are_conserved(void **state)
 {
   (void)state;
@@ -162,7 +148,7 @@ static void stopped_runs_end_as_uninterrupted_ones(void **state)
       status = cut->ops->go_on(cut, &gone, &err);
     }
     assert_true(stops > 2 && gone == whole);
-    same_archive(straight, cut);
+    lab_same_archive(straight, cut);
     straight->ops->destroy(straight);
     cut->ops->destroy(cut);
   }
@@ -184,7 +170,7 @@ static void instructions_and_threads_leave_the_plain_bits(void **state)
       ((gg_dsmc_channel *)fast)->collide = gg_dsmc_channel_collide_of[set];
       fast->ops->threads(fast, 1 + (int)set % 3);
       advance(fast, INFINITY, (uint64_t)(5 * m.n));
-      same_archive(fast, plain);
+      lab_same_archive(fast, plain);
       fast->ops->destroy(fast);
     }
     plain->ops->destroy(plain);
