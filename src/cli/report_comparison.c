@@ -254,22 +254,22 @@ void gg_cli_print_comparison(const gg_comparison *c, bool all)
       gg_cli_print_warnings(gg_comparison_result(c, gg_cli_engines[k]), NULL);
 }
 
-/* Print the largest relative numerical error of the theories, and its quantity. */
+/* Print the largest relative numerical error of a theory, with its quantity; a quantity may be 0 within its error. */
 static void print_numerical_error(const gg_comparison *c, const char *theory)
 {
   double most = 0;
   gg_comparison_row row;
-  char text[200], worst[64] = "";
+  char text[300], worst[64] = "", zero[100] = "";
   for (size_t i = 0; gg_comparison_at(c, i, &row, NULL) == GG_OK; i++) {
-    double error = NAN, relative;
+    double error = NAN;
     gg_comparison_theory_error(c, theory, row.name, &error, NULL);
-    relative = error / fabs(value_of(c, theory, row.name, NULL));
-    if (!(relative > most)) continue;
-    most = relative;
-    snprintf(worst, sizeof worst, "%s", row.name);
+    const double relative = error / fabs(value_of(c, theory, row.name, NULL));
+    if (relative >= 1) snprintf(zero, sizeof zero, " %s is 0 to %.1g.", row.name, error);
+    if (relative < 1 && relative > most) most = relative, snprintf(worst, sizeof worst, "%s", row.name);
   }
   if (!*worst) return;
-  snprintf(text, sizeof text, "solved numerically, to %.1g %% of %s and better of all others.", 100 * most, worst);
+  snprintf(text, sizeof text, "solved numerically, to %.1g %% of %s and better of all others.%s", 100 * most, worst,
+           zero);
   gg_cli_print_wrapped(stdout, "  Here: ", text);
 }
 

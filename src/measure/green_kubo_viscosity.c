@@ -138,9 +138,11 @@ static double total(const double *mean, const gg_model *m)
   return kinetic(mean, m) + (m->boltzmann ? 0 : fit(mean + COLLISIONAL));
 }
 
+static const char too_short[] = "too short: the averaging has less than a sweep of the reduced shear rate";
+
 static const gg_derived derived[] = {
-    {GG_Q_VISCOSITY_REDUCED, .of = total},
-    {GG_Q_VISCOSITY_REDUCED_KINETIC, .of = kinetic},
+    {GG_Q_VISCOSITY_REDUCED, .of = total, .unknown = too_short},
+    {GG_Q_VISCOSITY_REDUCED_KINETIC, .of = kinetic, .unknown = too_short},
     GG_DERIVED_END,
 };
 

@@ -15,6 +15,6 @@ bool gg_measure_derived_find(const gg_derived *table, gg_quantity q, gg_function
 {
   gg_quantity family = gg_common_quantity_family(q);
   for (const gg_derived *d = table; d && d->quantity != GG_MOST_QUANTITIES; d++)
-    if (d->quantity == family) return *f = (gg_function){d->of, d->each, (int)(q - family)}, true;
+    if (d->quantity == family) return *f = (gg_function){d->of, d->each, (int)(q - family), d->unknown}, true;
   return false;
 }

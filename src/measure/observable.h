@@ -32,11 +32,12 @@ typedef struct gg_derived {
   gg_quantity quantity;
   gg_of_means *of;
   gg_member_of_means *each; /* where `of` is NULL */
+  const char *unknown;      /* why it is NaN where it is; NULL: nobody knows */
 } gg_derived;
 /* End of a table of derived quantities. */
 #define GG_DERIVED_END                                                                                                 \
   {                                                                                                                    \
-    GG_MOST_QUANTITIES, NULL, NULL                                                                                     \
+    GG_MOST_QUANTITIES, NULL, NULL, NULL                                                                               \
   }
 
 /* Rows: the observable writes a row of numbers at every sample. All grains are visited in chunks (or blocks) between

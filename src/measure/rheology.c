@@ -18,6 +18,7 @@ typedef struct memory {
   double log2_scale;       /* engine's velocities are 2^this times those of the start: in the end beyond all doubles */
   double mean_spin[GG_MAX_SPECIES][3];
   double energy, momentum[2]; /* of all grains; m c_x and m c_y, between walls */
+  double drag;                /* power of drag at the previous sample */
   double density_waves, momentum_waves;
   uint64_t samples;
 } memory;
@@ -236,6 +237,15 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
   memcpy(r->memory.momentum, r->momentum, sizeof r->memory.momentum);
 }
 
+/* The balance has the power of drag at the sample; that of the interval is, by the trapezoidal rule, half its change
+ * less. In a steady window changes cancel; in a gas that cools or heats they do not. */
+static void put_drag(rheology *r, const gg_interval *in, double *row)
+{
+  const double drag = gg_measure_rheology_drag(row, r->model), f = in->velocity_factor;
+  if (in->elapsed > 0) row[CH_GROWTH] -= (drag - f * f * r->memory.drag) / 2;
+  r->memory.drag = drag;
+}
+
 static void put_waves(rheology *r, double *row)
 {
   if (r->waves.matter_squares > 0)
@@ -262,6 +272,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   double *of_species = row + CH_SPECIES;
   const size_t width = gg_rheology_species_width(r->model);
   for (int i = 0; i < r->model->n_species; i++) put_moments(r, i, cooling ? T : 1, of_species + (size_t)i * width);
+  put_drag(r, in, row);
   if (!(in->elapsed > 0)) return; /* the start has no rates */
   const gg_cooling_interval h =
       cooling ? gg_cooling_interval_of(T0, T, in->elapsed) : (gg_cooling_interval){in->elapsed, in->elapsed, 0};

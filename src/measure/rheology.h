@@ -19,7 +19,7 @@ enum {
   CH_PC_XY,
   CH_PC_YX,     /* collisional stress, stress units */
   CH_T2,        /* square of the temperature of the sample */
-  CH_GROWTH,    /* of the energy of all grains, dE/dt, per volume */
+  CH_GROWTH,    /* of the energy of all grains, dE/dt, per volume; with drag see put_drag in rheology.c */
   CH_WALL_LOSS, /* as CH_LOSS, in contacts with walls */
   CH_WALL_DRAG, /* force along the walls, in the direction in which they move or resist, and across: sums over walls,
                    per volume */
@@ -60,6 +60,9 @@ static inline size_t gg_rheology_species_width(const gg_model *m)
 {
   return m->rule == GG_SMOOTH ? CH_SMOOTH_WIDTH : CH_ROUGH_WIDTH;
 }
+
+/* Power of drag on the grains of a row, or of means of rows, per volume. */
+double gg_measure_rheology_drag(const double *row, const gg_model *m);
 
 extern const gg_derived gg_measure_rheology_derived[];
 extern const gg_derived gg_measure_rheology_history[];

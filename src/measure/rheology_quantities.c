@@ -162,7 +162,8 @@ static double power_of_noise(const gg_model *m)
     sum += share(m, i) * 1.5 * m->mass[i] * (white + m->bath.noise[i] + m->inertia[i] * m->bath.spin_noise[i]);
   return sum * m->density * m->stress_unit;
 }
-static double power_of_drag(const double *a, const gg_model *m)
+
+double gg_measure_rheology_drag(const double *a, const gg_model *m)
 {
   double sum = 0;
   for (int i = 0; i < m->n_species && m->bath.on; i++) {
@@ -183,7 +184,7 @@ static double energy_balance(const double *a, const gg_model *m)
   double work = m->walled  ? a[CH_WALL_WORK]
                 : m->frame ? a[CH_WALL_WORK] - a[CH_PC_YX] * m->shear_rate
                            : -total_yx(a, m) * m->shear_rate;
-  work += power_of_noise(m) - power_of_drag(a, m) + power_of_torques(a, m) + a[CH_GIVEN];
+  work += power_of_noise(m) - gg_measure_rheology_drag(a, m) + power_of_torques(a, m) + a[CH_GIVEN];
   if (gg_model_has_thermal_walls(m)) return (work - a[CH_WALL_LOSS] - a[CH_GROWTH]) / a[CH_LOSS];
   return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }

@@ -172,7 +172,9 @@ static double viscosity(const double *mean, const gg_model *m)
 }
 
 static const gg_derived derived[] = {
-    {GG_Q_VISCOSITY_REDUCED, .of = viscosity},
+    {GG_Q_VISCOSITY_REDUCED, .of = viscosity,
+     .unknown =
+         "too short: the fit of the wave leaves out the first 10 collisions a grain; give run.duration a larger value"},
     GG_DERIVED_END,
 };
 

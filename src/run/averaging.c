@@ -151,20 +151,20 @@ static bool finished(gg_replicas *all, const gg_window_test *t)
   return gg_statistics_rule_is_met(&all->criteria, t, before);
 }
 
-/* Warm up. Averaging keeps the last sampling interval, so the warm-up is extended until the intervals fit the collision
- * rate: they do not after a burst of collisions. A resumed run tests at the same samples as an uninterrupted one. */
+/* Warm up. Averaging keeps the last sampling interval, so the warm-up is extended until it fits the collision rate,
+ * which it does not in a burst. A rate that stays high is no burst. Resumed runs test at the same samples as others. */
 static gg_status warm_up(gg_replicas *all, gg_error *err)
 {
-  enum { TEST_EVERY = 4, MOST_MORE = 300 };
+  enum { TEST_EVERY = 4, MOST_MORE = 300, BURST = 50, COLLAPSE = 1000 };
   uint64_t due = all->criteria.warmup;
   while (due < all->state.due) due += TEST_EVERY;
   for (;; due += TEST_EVERY) {
     GG_TRY(advance_to(all, due, err));
     if (is_over(all)) return GG_OK;
+    const bool late = due >= all->criteria.warmup + MOST_MORE;
     int bad = 0;
-    while (bad < all->n && gg_run_replica_interval_fits(&all->replica[bad])) bad++;
-    if (bad == all->n) return GG_OK;
-    if (due >= all->criteria.warmup + MOST_MORE) return gg_run_replica_collapsed(&all->replica[bad], err);
+    while (bad < all->n && gg_run_replica_interval_fits(&all->replica[bad], late ? COLLAPSE : BURST)) bad++;
+    if (late || bad == all->n) return bad == all->n ? GG_OK : gg_run_replica_collapsed(&all->replica[bad], err);
   }
 }
 

@@ -329,12 +329,12 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
   return gg_base_callback_settle(status, err);
 }
 
-bool gg_run_replica_interval_fits(const gg_replica *r)
+bool gg_run_replica_interval_fits(const gg_replica *r, double most)
 {
   if (gg_scene_is_followed(&r->scene)) return true; /* sampling times are given */
   if (r->model.gravity[1] != 0) return true;        /* grains at rest have any collision rate */
   double per_grain = r->clock.interval * gg_common_model_collision_rate(&r->model, r->clock.temperature);
-  return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
+  return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / most;
 }
 
 gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err)

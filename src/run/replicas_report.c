@@ -22,14 +22,15 @@ static const gg_model *gas_of(const gg_replicas *all)
   return &all->replica[0].model;
 }
 
-/* Why a quantity is not there: the scene has none of it, or nothing that was requested measures it. */
-static const char *why_missing(const gg_replicas *all, gg_quantity q)
+/* Why a quantity is unknown: the scene lacks it, nothing measures it, or the run is too short, which is a warning. */
+static const char *why_missing(const gg_replicas *all, gg_quantity q, gg_result *result)
 {
   if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned NaN or infinite values";
   if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
   if (all->replica[0].sampler.n_observables == 0) return "nothing is measured in this scene";
-  if (all->model.linear_response && (gg_common_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
-    return "too short: the averaging has less than a sweep of the reduced shear rate";
+  gg_function f;
+  if (gg_measure_sampler_find(&all->replica[0].sampler, q, &f) >= 0 && f.unknown)
+    return gg_run_result_warn(result, "%s: %s", gg_common_quantity_name(q), f.unknown), f.unknown;
   const char *reason = gg_common_quantity_missing(gas_of(all), q);
   return reason ? reason : "not measured in this scene";
 }
@@ -57,14 +58,13 @@ static gg_status report_means(gg_replicas *all, double memory, gg_result *result
     else if (all->state.averaging)
       GG_TRY(gg_run_replicas_mean(all, q, memory, &m, err));
     if (!isfinite(m.mean)) {
-      snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, q));
+      snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, q, result));
       continue;
     }
     e->mean = m.mean, e->error = m.error;
     e->correlation_time = m.correlation_rows * row_length;
     e->samples = (followed ? 1 : rows * s->per_row) * (uint64_t)all->n; /* at the end, of each replica one */
-    if (!isfinite(m.error) || followed) continue;
-    result->correlations.quantity[result->correlations.n++] = q;
+    if (isfinite(m.error) && !followed) result->correlations.quantity[result->correlations.n++] = q;
   }
   return gg_run_replicas_correlations(all, result, err);
 }

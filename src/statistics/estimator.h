@@ -23,6 +23,7 @@ typedef struct gg_function {
   gg_of_means *of;
   gg_member_of_means *each; /* where `of` is NULL */
   int member;
+  const char *unknown; /* why its value is NaN; NULL: nobody knows */
 } gg_function;
 
 static inline double gg_function_value(gg_function f, const double *mean, const gg_model *model)

@@ -107,6 +107,21 @@ def test_theory_answers_in_json():
     check(done.code == 0 and "lun1991" in done.out and not done.new)
 
 
+def test_numerical_errors_of_theories():
+    """Printed is the largest relative error; a quantity that is 0 within its error has this error instead."""
+    for e in 1, 0.9:
+        scene = f"flow: hcs\nphi: 0.1\ncollision: {{e: {e}}}\n"
+        options = "scene.yaml", "--theory", "enskog_hermite"
+        printed = " ".join(run("theory", *options, scene=scene, columns=400).out.split("Here: ")[1].split())
+        solved = json.loads(run("theory", *options, "--json").out)["theory"]["enskog_hermite"]
+        errors = {name: (q["error"], abs(q["mean"])) for name, q in solved.items() if q and q.get("error")}
+        zero = [name for name, (error, mean) in errors.items() if error >= mean]
+        check(zero == (["a2"] if e == 1 else []), zero)
+        worst = max((error / mean, name) for name, (error, mean) in errors.items() if name not in zero)
+        expected = f"solved numerically, to {float(100 * worst[0]):.1g} % of {worst[1]} and better of all others."
+        check(printed == " ".join([expected] + [f"{name} is 0 to {errors[name][0]:.1g}." for name in zero]), printed)
+
+
 def test_a_run_answers_in_json():
     for engine in "md", "dsmc":
         done = run("run", "scene.yaml", "--engine", engine, "--json", "--seed", "5", "--output", engine + ".h5",

@@ -3,7 +3,8 @@
  * constant temperature, in a gas that cools and is rescaled on the way, with a Gaussian thermostat and in a bath; the
  * curve is the planted amplitude. The wave of an elastic gas decays by Enskog's viscosity, dilute and dense, in Monte
  * Carlo and in md, and in Monte Carlo that of a gas heated by white noise and of a cooling one by theirs; a run that is
- * resumed has the same bits. Daily md of the elastic gas and Monte Carlo of the cooling one run, the others nightly. */
+ * resumed has the same bits. A run too short for the fit says so; energy is balanced while a wave grows. Daily md of
+ * the elastic gas and Monte Carlo of the cooling one run, the others nightly. */
 #include "common/shear_wave.h"
 #include "curve_test.h"
 #include "graingas.h"
@@ -199,6 +200,47 @@ static void other_gases_have_none(void **state)
   assert_true(m.wave == 0);
 }
 
+static bool warns(const gg_result *r, const char *words)
+{
+  for (size_t i = 0; i < r->warnings.n; i++)
+    if (strstr(r->warnings.text[i], words)) return true;
+  return false;
+}
+
+static void a_run_too_short_for_the_fit_says_so(void **state)
+{
+  (void)state;
+  gg_scene s = wave_scene(GG_DSMC, GG_HCS, GG_NO_THERMOSTAT, 0.1, 1);
+  s.particles = 1000, s.dsmc.particles = 1000, s.run.duration = 3, s.run.replicas = 2;
+  gg_result *r = ct_run(s);
+  assert_true(isnan(r->value[GG_Q_VISCOSITY_REDUCED].mean));
+  assert_non_null(strstr(r->value[GG_Q_VISCOSITY_REDUCED].reason, "first 10 collisions a grain; give run.duration"));
+  assert_true(warns(r, "viscosity_reduced: too short"));
+  gg_result_free(r);
+  s.run.duration = 15;
+  r = ct_run(s);
+  assert_true(isfinite(r->value[GG_Q_VISCOSITY_REDUCED].mean));
+  assert_false(warns(r, "viscosity_reduced"));
+  gg_result_free(r);
+}
+
+/* A given gaussian_rate feeds the wave, too, which grows without end: so does the power of the thermostat within each
+ * sample, by 5 % of the losses at its end. */
+static void energy_is_balanced_while_a_wave_grows(void **state)
+{
+  (void)state;
+  gg_scene s = wave_scene(GG_DSMC, GG_HSS, GG_GAUSSIAN, 0.1, 0.7);
+  s.gaussian_rate = 0.2, s.aspect[1] = 3.6, s.particles = 1000, s.dsmc.particles = 4000, s.run.duration = 60,
+  s.run.replicas = 4;
+  gg_result *r = ct_run(s);
+  const gg_estimate *balance = &r->value[GG_Q_ENERGY_BALANCE];
+  print_message("# energy balance %.5f +- %.5f at T = %.3g\n", balance->mean, balance->error,
+                r->value[GG_Q_TEMPERATURE].mean);
+  assert_true(r->value[GG_Q_TEMPERATURE].mean > 50 && balance->error < 0.003);
+  assert_true(fabs(balance->mean - 1) < 4 * balance->error + 0.001);
+  gg_result_free(r);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -207,6 +249,8 @@ int main(void)
       cmocka_unit_test(elastic_waves_decay_by_enskogs_viscosity),
       cmocka_unit_test(heated_and_cooling_waves_decay_by_their_viscosity),
       cmocka_unit_test(other_gases_have_none),
+      cmocka_unit_test(a_run_too_short_for_the_fit_says_so),
+      cmocka_unit_test(energy_is_balanced_while_a_wave_grows),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static void interval_fits_at_the_start(void **state)
     for (gg_engine_kind engine = 0; engine <= GG_DSMC; engine++) {
       gg_replica r;
       create(&r, scenes[k], engine);
-      if (!gg_run_replica_interval_fits(&r)) fail_msg("%s: has to warm up", scenes[k]);
+      if (!gg_run_replica_interval_fits(&r, 50)) fail_msg("%s: has to warm up", scenes[k]);
       gg_run_replica_clear(&r);
     }
 }

@@ -147,7 +147,7 @@ static void short_windows_where_a_drift_is_not_felt(void **state)
 {
   (void)state;
   enum { REPEATS = 40 };
-  static const gg_derived derived[] = {{GG_Q_TEMPERATURE, first_channel, NULL}, GG_DERIVED_END};
+  static const gg_derived derived[] = {{GG_Q_TEMPERATURE, .of = first_channel}, GG_DERIVED_END};
   static const gg_observable_rows rows = {.width = one_channel, .derived = derived};
   static const gg_observable observable = {.rows = &rows};
   static const double by_square[] = {0.1, 0.003};

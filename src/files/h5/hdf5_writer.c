@@ -182,10 +182,12 @@ static hid_t new_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, hi
   return dataset;
 }
 
-static void write_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, const void *data)
+/* Rank 0: one value. */
+void gg_h5_array(gg_h5 *h, const char *path, hid_t type, int rank, const hsize_t *dims, const void *data)
 {
   if (!data) gg_h5_failed(h, "out of memory");
-  hid_t dataset = is_over(h) ? -1 : new_dataset(h, path, type, space, H5P_DEFAULT);
+  if (is_over(h)) return;
+  hid_t space = H5Screate_simple(rank, dims, NULL), dataset = new_dataset(h, path, type, space, H5P_DEFAULT);
   if (dataset >= 0) {
     if (H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) gg_h5_failed(h, path);
     if (H5Dclose(dataset) < 0) gg_h5_failed(h, path);
@@ -195,14 +197,15 @@ static void write_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, c
 
 void gg_h5_text(gg_h5 *h, const char *path, const char *text)
 {
+  if (is_over(h)) return;
   hid_t type = text_type(text ? strlen(text) : 0);
-  write_dataset(h, path, type, H5Screate(H5S_SCALAR), text);
+  gg_h5_array(h, path, type, 0, NULL, text);
   H5Tclose(type);
 }
 
 void gg_h5_number(gg_h5 *h, const char *path, double value)
 {
-  write_dataset(h, path, H5T_NATIVE_DOUBLE, H5Screate(H5S_SCALAR), &value);
+  gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 0, NULL, &value);
 }
 
 void gg_h5_number_of_unit(gg_h5 *h, const char *path, double value, const char *unit)
@@ -213,12 +216,7 @@ void gg_h5_number_of_unit(gg_h5 *h, const char *path, double value, const char *
 
 void gg_h5_count(gg_h5 *h, const char *path, uint64_t value)
 {
-  write_dataset(h, path, H5T_NATIVE_UINT64, H5Screate(H5S_SCALAR), &value);
-}
-
-void gg_h5_array(gg_h5 *h, const char *path, hid_t type, int rank, const hsize_t *dims, const void *data)
-{
-  write_dataset(h, path, type, H5Screate_simple(rank, dims, NULL), data);
+  gg_h5_array(h, path, H5T_NATIVE_UINT64, 0, NULL, &value);
 }
 
 void gg_h5_numbers(gg_h5 *h, const char *path, const double *values, size_t n, const char *unit)
@@ -232,7 +230,7 @@ void gg_h5_attribute(gg_h5 *h, const char *object, const char *name, hid_t type,
 {
   if (is_over(h)) return;
   hsize_t count = n;
-  hid_t space = n ? H5Screate_simple(1, &count, NULL) : H5Screate(H5S_SCALAR);
+  hid_t space = H5Screate_simple(n > 0, &count, NULL);
   hid_t attribute = H5Acreate_by_name(h->file, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   if (attribute < 0 || H5Awrite(attribute, type, values) < 0) gg_h5_failed(h, name);
   H5Aclose(attribute);
@@ -241,6 +239,7 @@ void gg_h5_attribute(gg_h5 *h, const char *object, const char *name, hid_t type,
 
 void gg_h5_text_attribute(gg_h5 *h, const char *object, const char *name, const char *text)
 {
+  if (is_over(h)) return;
   hid_t type = text_type(strlen(text));
   gg_h5_attribute(h, object, name, type, text, 0);
   H5Tclose(type);
@@ -260,7 +259,7 @@ static char *pack(gg_h5 *h, const char *const *texts, size_t n, size_t *longest)
 void gg_h5_texts_attribute(gg_h5 *h, const char *object, const char *name, const char *const *texts, size_t n)
 {
   size_t longest;
-  char *packed = pack(h, texts, n, &longest);
+  char *packed = is_over(h) ? NULL : pack(h, texts, n, &longest);
   if (!packed) return;
   hid_t type = text_type(longest);
   gg_h5_attribute(h, object, name, type, packed, n);
@@ -272,7 +271,8 @@ void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n)
 {
   size_t longest;
   const hsize_t count = n;
-  char *packed = pack(h, texts, n, &longest);
+  char *packed = is_over(h) ? NULL : pack(h, texts, n, &longest);
+  if (!packed) return;
   hid_t type = text_type(longest);
   gg_h5_array(h, path, type, 1, &count, packed);
   H5Tclose(type);
