@@ -29,9 +29,9 @@ extern const gg_command gg_cli_commands[]; /* ends with a NULL name */
 /* Spelling suggestion: a command, --help or --version; NULL if none is near. */
 const char *gg_cli_nearest_command(const char *word);
 
-gg_command_main gg_cli_compare_main, gg_cli_run_main, gg_cli_theory_main, gg_cli_sweep_main, gg_cli_validate_main,
-    gg_cli_plot_main, gg_cli_export_main, gg_cli_info_main, gg_cli_cite_main, gg_cli_fingerprint_main, gg_cli_init_main,
-    gg_cli_page_main, gg_cli_bench_main;
+gg_command_main gg_cli_run_main, gg_cli_theory_main, gg_cli_sweep_main, gg_cli_validate_main, gg_cli_plot_main,
+    gg_cli_export_main, gg_cli_info_main, gg_cli_cite_main, gg_cli_fingerprint_main, gg_cli_init_main, gg_cli_page_main,
+    gg_cli_bench_main;
 
 /* print.c: print "graingas: MESSAGE" on standard error; returns the exit code of the error. */
 int gg_cli_report(const gg_error *err);

@@ -340,3 +340,10 @@ const char *gg_cli_options_name(const gg_options *o)
 {
   return strcmp(o->input, "-") == 0 ? "standard input" : o->input;
 }
+
+int gg_cli_report_scene(const gg_options *o, gg_status status, const gg_error *err)
+{
+  return status == GG_OK          ? GG_OK
+         : status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(o), err)
+                                  : gg_cli_report(err);
+}

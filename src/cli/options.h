@@ -60,6 +60,8 @@ const char *gg_cli_options_name(const gg_options *options);
 
 /* Read the scene of the input and apply the overrides; NULL on failure. */
 gg_status gg_cli_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);
+/* Report the error of work on the scene unless the status is GG_OK; returns the exit code. */
+int gg_cli_report_scene(const gg_options *options, gg_status status, const gg_error *err);
 
 /* Apply a KEY=VALUE given after --OPTION; `example` is for the error message. */
 typedef gg_status gg_options_setter(void *target, const char *key, const char *value, gg_error *err);
