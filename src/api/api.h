@@ -13,6 +13,14 @@
 #include "run/result.h"
 
 #define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)
+/* Declarations: the same, and the first argument is a handle, which the call has for itself, or reads (base/busy.h). */
+#define GG_NEED_ALONE(...)                                                                                             \
+  GG_NEED(__VA_ARGS__);                                                                                                \
+  GG_USE_ALONE(GG_FIRST(__VA_ARGS__, ))
+#define GG_NEED_READING(...)                                                                                           \
+  GG_NEED(__VA_ARGS__);                                                                                                \
+  GG_USE_READING(GG_FIRST(__VA_ARGS__, ))
+#define GG_FIRST(first, ...) first
 #define GG_NEED_CALLBACK(argument) GG_CHECK_ARGUMENTS(#argument, (argument) ? "" : NULL)
 #define GG_CHECK_ARGUMENTS(names, ...)                                                                                 \
   GG_TRY(gg_api_arguments_check(__func__, names, (const void *const[]){__VA_ARGS__},                                   \

@@ -24,8 +24,7 @@ static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, int (*stop)(void *context),
                              void *context, gg_error *err)
 {
-  GG_NEED(simulation, path);
-  GG_USE_READING(simulation);
+  GG_NEED_READING(simulation, path);
   gg_api_request request = {stop, context, false};
   GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   gg_status status = put_all(simulation, &archive, err);
@@ -36,8 +35,7 @@ gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, 
 gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*stop)(void *context), void *context,
                                  void **bytes, size_t *size, gg_error *err)
 {
-  GG_NEED(simulation, bytes, size);
-  GG_USE_READING(simulation);
+  GG_NEED_READING(simulation, bytes, size);
   gg_api_request request = {stop, context, false};
   GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   GG_FREED void *made = NULL;
