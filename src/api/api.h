@@ -57,6 +57,8 @@ typedef struct gg_api_request {
   bool made;
 } gg_api_request;
 bool gg_api_is_requested(void *request);
+/* The gg_stop of the callback, for the block. */
+#define GG_STOP_OF(stop, context) ((gg_stop){gg_api_is_requested, &(gg_api_request){stop, context, false}})
 
 /* result.c: a curve, and its k-th number, as the interface has them; the unit is that of correlation times. */
 gg_curve_data gg_api_curve_view(const gg_curve *curve);
@@ -65,7 +67,7 @@ gg_status gg_api_curve_number(const gg_curve *c, size_t k, const char *unit, gg_
 /* result.c: the file of a run, or of a comparison (NULL: the run), on disk or in memory. The file's command is that of
  * the run, or the name of the function. */
 gg_status gg_api_file_write(const gg_result *run, const gg_comparison *both, const char *function, const char *path,
-                            gg_api_request request, gg_error *err);
+                            const gg_stop *stop, gg_error *err);
 gg_status gg_api_file_to_bytes(const gg_result *run, const gg_comparison *both, const char *function, void **bytes,
                                size_t *size, gg_error *err);
 

@@ -227,11 +227,11 @@ static gg_status finish(gg_result_file *file, const gg_result *run, const gg_com
 }
 
 gg_status gg_api_file_write(const gg_result *run, const gg_comparison *both, const char *function, const char *path,
-                            gg_api_request request, gg_error *err)
+                            const gg_stop *stop, gg_error *err)
 {
   gg_result_file file;
   GG_TRY(gg_files_result_file_open(&file, path, run->origin.command ? run->origin.command : function, err));
-  file.file.stop = (gg_stop){gg_api_is_requested, &request};
+  file.file.stop = *stop;
   file.stop = &file.file.stop;
   return gg_base_callback_settle(finish(&file, run, both, err), err);
 }
@@ -255,7 +255,7 @@ gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)
                           gg_error *err)
 {
   GG_NEED(result, path);
-  return gg_api_file_write(result, NULL, __func__, path, (gg_api_request){stop, context, false}, err);
+  return gg_api_file_write(result, NULL, __func__, path, &GG_STOP_OF(stop, context), err);
 }
 
 gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err)
@@ -295,7 +295,6 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
     return GG_REFUSE(err, "%s: would be both the result and its picture; choose another picture", picture);
   gg_plot_paper paper;
   GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
-  gg_api_request request = {stop, context, false};
   GG_TRY(gg_plot_paper_choose(&paper, picture, format, width, err));
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   const unsigned before = gg_base_memory_failures();
@@ -303,8 +302,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   if (status == GG_OK) status = gg_plot_result_draw(&stored, &paper, picture, err);
   if (status == GG_OK && drawn) drawn(context, picture);
   if (status == GG_OK)
-    status =
-        gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &(gg_stop){gg_api_is_requested, &request}, err);
+    status = gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &GG_STOP_OF(stop, context), err);
   status = gg_base_callback_settle(status, err);
   return gg_base_memory_check(before, status, err); /* otherwise a picture could lack its title */
 }
@@ -321,7 +319,6 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                     int (*stop)(void *context), void *context, gg_error *err)
 {
   GG_NEED(result_file, prefix);
-  gg_api_request request = {stop, context, false};
   const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
   if (!*name) return GG_REFUSE(err, "'%s': the files need a prefix to their names", prefix);
   if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
@@ -329,6 +326,6 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
   GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context,
-                                            &(gg_stop){gg_api_is_requested, &request}, err);
+                                            &GG_STOP_OF(stop, context), err);
   return gg_base_callback_settle(status, err);
 }

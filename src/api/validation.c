@@ -33,8 +33,7 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
   gg_validate_options o;
   GG_COPY_OPTIONS(o, options);
   GG_CLEARED(gg_sweep_point_table_clear) gg_point_table table = {0};
-  gg_api_request request = {o.stop, context, false};
-  const gg_stop stop = {gg_api_is_requested, &request};
+  const gg_stop stop = GG_STOP_OF(o.stop, context);
   *verdict = NULL;
   GG_TRY(gg_sweep_check(sweep, err));
   if (sweep->settings.does != GG_DOES_COMPARE)
