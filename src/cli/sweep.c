@@ -150,23 +150,10 @@ static void show_progress(void *context, const gg_sweep_progress *p)
   c->over |= over;
 }
 
-static gg_status set(void *sweep, const char *key, const char *value, gg_error *err)
-{
-  return gg_sweep_set(sweep, key, value, err);
-}
-
-static gg_status vary(void *sweep, const char *key, const char *values, gg_error *err)
-{
-  return gg_sweep_vary(sweep, key, values, err);
-}
-
 gg_status gg_cli_sweep_read(const gg_options *o, const char *text, const char *name, gg_sweep **sweep, gg_error *err)
 {
   gg_status status = o->input ? gg_sweep_load(o->input, sweep, err) : gg_sweep_parse(text, name, sweep, err);
-  for (int i = 0; i < o->n_vary && status == GG_OK; i++)
-    status = gg_cli_options_set("vary", o->vary[i], "phi=0.1:0.5:0.1", vary, *sweep, err);
-  for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
-    status = gg_cli_options_set("set", o->override[i], "collision.e=0.8", set, *sweep, err);
+  if (status == GG_OK) status = gg_cli_options_apply(o, NULL, *sweep, err);
   if (status == GG_OK && o->does) status = gg_sweep_set(*sweep, "sweep.does", o->does, err);
   return status == GG_OK ? gg_sweep_check(*sweep, err) : status;
 }
