@@ -47,6 +47,8 @@ gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...
 void gg_cli_append(char *text, size_t size, const char *format, ...) GG_CLI_PRINTF(3, 4);
 /* Whether a word is among those of a text, separated by blanks. */
 bool gg_cli_has_word(const char *words, const char *word);
+/* Whether a text ends like this, after something else. */
+bool gg_cli_has_ending(const char *text, const char *ending);
 
 /* Warn on standard error about an unusual result file (gg_result_file_notice). */
 void gg_cli_print_notice(const char *result_file);
