@@ -22,7 +22,7 @@ typedef struct run_command {
   bool keeps_checkpoints;              /* output.checkpoint_every is above 0 */
   bool stored;                         /* a checkpoint was written in this run */
   bool out_of_time;                    /* the time limit ended the run */
-  bool replaced;                       /* the output replaces an older file */
+  bool replaced, redrawn;              /* the output, the picture replaces an older file */
   char *reported;                      /* warnings printed before the run, a line each; NULL: none */
   gg_cli_progress progress;
   gg_status status; /* status of gg_run or gg_compare; err has its message */
@@ -197,26 +197,21 @@ static char *command_to_resume(const run_command *r)
   return added ? gg_cli_command_line_quote(program_invocation_name, &r->options->words, added) : NULL;
 }
 
-typedef struct drawing {
-  const run_command *of;
-  bool replaced;
-} drawing;
-
 /* Report each picture: pages of curves are beside the requested one. */
 static void report_picture(void *context, const char *picture)
 {
-  const drawing *d = context;
-  gg_cli_report_written(d->of->options, "picture", picture, d->replaced && strcmp(picture, d->of->picture) == 0);
+  const run_command *r = context;
+  gg_cli_report_written(r->options, "picture", picture, r->redrawn && strcmp(picture, r->picture) == 0);
 }
 
 /* Draw the picture. If it was not requested, a failure (e.g. no gnuplot) is only a warning, unless a file cannot be
  * written. */
-static gg_status draw(const run_command *r, gg_error *err)
+static gg_status draw(run_command *r, gg_error *err)
 {
   if (!r->picture) return GG_OK;
-  drawing d = {r, gg_cli_file_exists(r->picture)};
+  r->redrawn = gg_cli_file_exists(r->picture);
   gg_status status =
-      gg_plot(r->output, r->picture, NULL, r->options->width, report_picture, gg_cli_interrupted, &d, err);
+      gg_plot(r->output, r->picture, NULL, r->options->width, report_picture, gg_cli_interrupted, r, err);
   if (status != GG_FAILED || r->options->picture) return status;
   fprintf(stderr, "warning: no picture: %s\n", err->message);
   return GG_OK;
