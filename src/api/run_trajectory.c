@@ -188,8 +188,7 @@ static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *
 
 gg_status gg_api_trajectory_finish(gg_api_run_call *r, gg_result *result, gg_error *err)
 {
-  if (r->frames_missing)
-    gg_run_result_warn(result, "the trajectory begins where the run was resumed: the run before kept none");
+  if (r->frames_missing) GG_WARN(result, "the trajectory begins where the run was resumed: the run before kept none");
   return r->log.fd >= 0 ? gg_files_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }
 

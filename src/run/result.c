@@ -1,23 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "run/result.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "scene/scene.h"
-
-void gg_run_result_warn(gg_result *result, const char *format, ...)
-{
-  char *text = NULL;
-  va_list args;
-  va_start(args, format);
-  if (vasprintf(&text, format, args) < 0) text = NULL;
-  va_end(args);
-  gg_base_string_list_take(&result->warnings, text);
-}
 
 bool gg_run_quantity_counts_in_collisions(const gg_model *m)
 {

@@ -114,7 +114,7 @@ struct gg_result {
   gg_extension *own; /* names of what that file's program had brought; else NULL */
 };
 
-void gg_run_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);
+#define GG_WARN(result, ...) gg_base_string_list_add(&(result)->warnings, __VA_ARGS__)
 
 /* Fill rows and correlation_time_unit, by the model. */
 void gg_run_result_label(gg_result *result);

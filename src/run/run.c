@@ -36,9 +36,8 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
   GG_TRY(gg_run_replicas_report(all, result, err)); /* out of memory: half a result is none */
   GG_HAND_OVER(out, result);
   if (has_other_numerics(&all->scene))
-    gg_run_result_warn(
-        *out, "continued to another relative error: the ensemble and the time step are those chosen for %.3g %%",
-        100 * gg_scene_ensemble_size_error(&all->scene));
+    GG_WARN(*out, "continued to another relative error: the ensemble and the time step are those chosen for %.3g %%",
+            100 * gg_scene_ensemble_size_error(&all->scene));
   return gg_run_replicas_check_end(all, err);
 }
 
@@ -50,7 +49,7 @@ static gg_status run_replicas(gg_replicas *all, gg_result **out, gg_error *err)
   if (ended && status == GG_INTERRUPTED && gg_run_replicas_store(all, err) != GG_OK) status = GG_BAD_FILE;
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
   if (cut_short) report(all, out, NULL);
-  if (status == GG_INTERRUPTED && *out) gg_run_result_warn(*out, "interrupted: these are the results so far");
+  if (status == GG_INTERRUPTED && *out) GG_WARN(*out, "interrupted: these are the results so far");
   return status;
 }
 
