@@ -246,11 +246,6 @@ gg_status gg_api_file_to_bytes(const gg_result *run, const gg_comparison *both, 
   return GG_OK;
 }
 
-void gg_result_free(gg_result *result)
-{
-  gg_run_result_free(result);
-}
-
 gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)(void *context), void *context,
                           gg_error *err)
 {

@@ -18,7 +18,7 @@ static void destroy(void *handle)
 {
   gg_sweep *sweep = handle;
   for (size_t f = 0; f < sweep->n_varied; f++) gg_sweep_varied_clear(&sweep->varied[f]);
-  gg_scene_release(sweep->base);
+  gg_scene_free(sweep->base);
   free(sweep->point);
   free(sweep->name);
   free(sweep);

@@ -11,7 +11,6 @@
 #include "base/thread_pool.h"
 #include "common/engine.h"
 #include "files/result_document.h"
-#include "files/text_format.h"
 #include "theory/references.h"
 
 const char *gg_version(void)
@@ -79,12 +78,6 @@ gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
   if (!made) return gg_base_out_of_memory(err);
   *text = made;
   return GG_OK;
-}
-
-void gg_format_estimate(double mean, double error, char *text, size_t size)
-{
-  if (!text || !size) return;
-  gg_files_estimate_format(mean, error, text, size);
 }
 
 const char *gg_nearest_word(const char *word, const char *const *known)

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "common/thermostat.h"
+#include "graingas.h"
 #include "scene/fields.h"
 
 /* With `decimals` after the point; the error in units of the last digit where it has no point in it. */
@@ -20,8 +21,9 @@ static void put_estimate(double mean, double error, int decimals, char *text, si
     snprintf(text, size, "%.*f(%.0f)", decimals, mean, error * pow(10, decimals));
 }
 
-void gg_files_estimate_format(double mean, double error, char *text, size_t size)
+void gg_format_estimate(double mean, double error, char *text, size_t size)
 {
+  if (!text || !size) return;
   if (isnan(mean)) {
     snprintf(text, size, "-");
     return;

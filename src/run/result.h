@@ -13,8 +13,7 @@
 typedef struct gg_result gg_result; /* the handle of the public header */
 typedef struct gg_scene gg_scene;
 
-void gg_run_result_free(gg_result *result);
-void gg_run_result_freed(gg_result **result); /* for GG_CLEARED */
+void gg_run_result_freed(gg_result **result); /* gg_result_free for GG_CLEARED */
 
 typedef struct gg_estimate {
   double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */

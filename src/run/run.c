@@ -75,7 +75,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   free(all);
   if (!created) return gg_base_memory_check(before, status, err);
   if (gg_base_memory_failures() == before || status != GG_OK) return status;
-  gg_run_result_free(*out); /* it lacks a warning, or worse */
+  gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
   return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_common_engine_of(scene->engine)->name);
 }
@@ -360,9 +360,9 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
 
 void gg_run_comparison_clear(gg_comparison *c)
 {
-  for (int k = 0; k < GG_N_ENGINES; k++) gg_run_result_free(c->by_engine[k]);
+  for (int k = 0; k < GG_N_ENGINES; k++) gg_result_free(c->by_engine[k]);
   for (int i = 0; i < c->n_theories; i++) gg_measure_curves_clear(&c->theory[i].curves);
-  gg_scene_release(c->scene);
+  gg_scene_free(c->scene);
   gg_common_extension_release(c->own);
   free(c->document);
   gg_base_string_list_clear(&c->warnings);
