@@ -39,8 +39,8 @@ gg_status gg_api_options_copy(const char *function, void *copy, size_t own_size,
 /* scene.c: a copy of the scene, with its defaults filled in and checked. Every use of a scene begins with this call. */
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err);
 
-/* text.c: GG_BAD_INPUT for an unknown quantity, with a spelling suggestion. */
-gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err);
+/* text.c: the row of a quantity; GG_BAD_INPUT for an unknown one, with a spelling suggestion. */
+gg_status gg_api_row_find(const gg_quantity_rows *rows, const char *name, const gg_quantity_row **row, gg_error *err);
 
 /* comparison.c: for GG_CLEARED. */
 void gg_api_comparison_freed(gg_comparison **comparison);

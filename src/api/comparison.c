@@ -133,9 +133,9 @@ const gg_scene *gg_comparison_scene(const gg_comparison *comparison)
 
 static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, gg_error *err)
 {
-  const gg_quantity_row *row = gg_run_rows_find(&c->rows, name);
-  *q = row ? row->quantity : GG_MOST_QUANTITIES;
-  return row ? GG_OK : gg_api_no_quantity(&c->rows, name, err);
+  const gg_quantity_row *row;
+  GG_TRY(gg_api_row_find(&c->rows, name, &row, err));
+  return *q = row->quantity, GG_OK;
 }
 
 gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err)

@@ -13,12 +13,6 @@
 #include "files/result_document.h"
 #include "plot/plot.h"
 
-static gg_status find(const gg_result *r, const char *name, const gg_quantity_row **row, gg_error *err)
-{
-  *row = gg_run_rows_find(&r->rows, name);
-  return *row ? GG_OK : gg_api_no_quantity(&r->rows, name, err);
-}
-
 static gg_measurement measurement(const gg_result *r, const gg_quantity_row *row)
 {
   const gg_estimate *e = &r->value[row->quantity];
@@ -37,7 +31,7 @@ gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measu
 {
   GG_NEED(result, quantity, found);
   const gg_quantity_row *row;
-  GG_TRY(find(result, quantity, &row, err));
+  GG_TRY(gg_api_row_find(&result->rows, quantity, &row, err));
   *found = measurement(result, row);
   return GG_OK;
 }
@@ -70,8 +64,8 @@ gg_status gg_result_covariance(const gg_result *result, const char *quantity, co
   GG_NEED(result, quantity, other);
   const gg_quantity_row *one, *second;
   const char *why;
-  GG_TRY(find(result, quantity, &one, err));
-  GG_TRY(find(result, other, &second, err));
+  GG_TRY(gg_api_row_find(&result->rows, quantity, &one, err));
+  GG_TRY(gg_api_row_find(&result->rows, other, &second, err));
   *covariance = gg_run_result_covariance(result, one->quantity, second->quantity, &why);
   if (!why) return GG_OK;
   return GG_REFUSE(err, "the covariance of '%s' and '%s' cannot be had here: %s", quantity, other, why);
@@ -128,7 +122,7 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
 {
   GG_NEED(result, quantity, n);
   const gg_quantity_row *row;
-  GG_TRY(find(result, quantity, &row, err));
+  GG_TRY(gg_api_row_find(&result->rows, quantity, &row, err));
   for (int k = 0; k < GG_N_HISTORY; k++) {
     if (gg_common_quantity_of_history(k) != row->quantity || !result->history.value[k]) continue;
     *n = result->history.n;

@@ -92,13 +92,6 @@ static gg_status open_earlier(gg_api_run_call *r, gg_frame_log *earlier, gg_erro
                       why.message, (unsigned long long)mark.frames);
 }
 
-/* File name of a path, without folders. */
-static const char *base_of(const char *path)
-{
-  const char *slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
-}
-
 static gg_status open_log(gg_api_run_call *r, const gg_frame_log *earlier, gg_error *err)
 {
   const char *target = r->temporary[GG_TEMPORARY_FRAMES];
@@ -172,7 +165,8 @@ gg_status gg_api_trajectory_mark(const gg_api_run_call *r, gg_archive *archive, 
   GG_TRY(gg_files_frame_log_sync(&r->log, err));
   GG_FREED char *path = gg_files_frame_log_path(r->options.checkpoint);
   if (!path) return gg_base_out_of_memory(err);
-  snprintf(name, sizeof name, "%s", base_of(path));
+  const char *slash = strrchr(path, '/');
+  snprintf(name, sizeof name, "%s", slash ? slash + 1 : path);
   GG_TRY(gg_base_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));
   return gg_base_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }

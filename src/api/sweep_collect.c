@@ -25,17 +25,6 @@ static void report_file(const collecting *c, const char *file)
   if (c->written) c->written(c->context, file);
 }
 
-static void warn_of_builds(const collecting *c)
-{
-  char text[200];
-  if (!c->table.n_other_builds || !c->options.warn) return;
-  snprintf(text, sizeof text,
-           "%zu of %zu points are by another build of graingas, whose numbers may differ: see the column `build`; the "
-           "sweep runs them again",
-           c->table.n_other_builds, c->table.n_documents);
-  c->options.warn(c->context, text);
-}
-
 /* Whether a failed picture is only a warning, e.g. because words have no axis: the tables are complete. */
 static bool may_lack_picture(const collecting *c, gg_status status, const gg_error *err)
 {
@@ -109,7 +98,8 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   GG_TRY(gg_io_atomic_check_writable(c->h5, "tables are files", err));
   if (c->picture) GG_TRY(gg_io_atomic_check_writable(c->picture, "pictures are files", err));
   GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, NULL, err));
-  warn_of_builds(c);
+  gg_sweep_point_table_warn(&c->table, ": see the column `build`; the sweep runs them again", c->options.warn,
+                            c->context);
   GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
   report_file(c, c->csv);
   GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));

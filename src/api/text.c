@@ -88,9 +88,10 @@ const char *gg_nearest_word(const char *word, const char *const *known)
   return nearest.best;
 }
 
-gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err)
+gg_status gg_api_row_find(const gg_quantity_rows *rows, const char *name, const gg_quantity_row **row, gg_error *err)
 {
   gg_nearest nearest = {.word = name};
+  if ((*row = gg_run_rows_find(rows, name))) return GG_OK;
   for (int i = 0; i < rows->n; i++) gg_base_spelling_try(&nearest, rows->row[i].name);
   if (!nearest.best) return GG_REFUSE(err, "there is no quantity called '%.60s'", name);
   return GG_REFUSE(err, "there is no quantity called '%.60s'; did you mean '%s'?", name, nearest.best);

@@ -16,15 +16,6 @@ const char *gg_standard_grid(int quick)
   return quick ? gg_sweep_quick_grid : gg_sweep_standard_grid;
 }
 
-static void warn_of_builds(const gg_point_table *t, const gg_validate_options *o, void *context)
-{
-  char text[120];
-  if (!t->n_other_builds || !o->warn) return;
-  snprintf(text, sizeof text, "%zu of %zu points are by another build of graingas, whose numbers may differ",
-           t->n_other_builds, t->n_documents);
-  o->warn(context, text);
-}
-
 gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validate_options *options,
                             void (*written)(void *context, const char *file), void *context, char **verdict,
                             gg_error *err)
@@ -43,7 +34,7 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
   if (o.picture) GG_TRY(gg_plot_paper_check(o.picture, o.width, err));
   gg_status status = gg_sweep_point_table_read(&table, sweep, folder, &stop, err);
   if (status == GG_OK) {
-    warn_of_builds(&table, &o, context);
+    gg_sweep_point_table_warn(&table, "", o.warn, context);
     status = gg_sweep_validate_table(&table, sweep, &o, written, context, &stop, verdict, err);
   }
   status = gg_base_callback_settle(status, err);

@@ -198,6 +198,16 @@ gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, co
   return GG_OK;
 }
 
+void gg_sweep_point_table_warn(const gg_point_table *t, const char *more,
+                               void (*warn)(void *context, const char *message), void *context)
+{
+  char text[200];
+  if (!t->n_other_builds || !warn) return;
+  snprintf(text, sizeof text, "%zu of %zu points are by another build of graingas, whose numbers may differ%s",
+           t->n_other_builds, t->n_documents, more);
+  warn(context, text);
+}
+
 /* Columns after those of the point and its keys. Whole numbers and truths have a value in every row, so that readers
  * find one type in a column: seed and `short` are those of the point, theories count as steady. */
 typedef enum kind { NUMBER, WHOLE, TRUTH, TEXT, NAME } kind;

@@ -45,6 +45,9 @@ typedef struct gg_point_table {
 gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep, const char *folder,
                                     const gg_stop *stop, gg_error *err);
 void gg_sweep_point_table_clear(gg_point_table *table);
+/* Warn of points by other builds, if there are any; `more` ends the sentence. */
+void gg_sweep_point_table_warn(const gg_point_table *table, const char *more,
+                               void (*warn)(void *context, const char *message), void *context);
 /* True if the table has a row of the method and the quantity (NULL: any). */
 bool gg_sweep_point_table_has(const gg_point_table *table, const char *method, const char *quantity);
 /* Take the next word of a list with commas (NULL: empty); false at its end. */
