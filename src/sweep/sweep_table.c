@@ -401,7 +401,7 @@ gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep 
   GG_FREED uint8_t *truth = gg_base_array_new(t->n, sizeof *truth, err);
   GG_FREED const char **text = gg_base_array_new(t->n, sizeof *text, err);
   if (!number || !whole || !truth || !text) return GG_FAILED;
-  gg_h5_create_in_memory(&h);
+  gg_h5_create(&h, NULL);
   gg_h5_group(&h, "/graingas/table");
   gg_h5_text(&h, "/graingas/version", gg_base_build_version);
   gg_h5_text(&h, "/graingas/command", command);
