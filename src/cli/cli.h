@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The graingas command, a program on graingas.h. Each subcommand is a file and a row of commands.c, and returns its
- * exit code. Only `bench` uses more of the library, and main() prepares the process (files/process.h). */
+/* The graingas command, a program on graingas.h. Each subcommand is a row of commands.c, and returns its exit code.
+ * Only `bench` uses more of the library, and main() prepares the process (files/process.h). */
 #ifndef GG_CLI_H
 #define GG_CLI_H
 
