@@ -9,7 +9,6 @@
 #include "base/memory.h"
 #include "io/output_path.h"
 #include "plot/plot.h"
-#include "sweep/standard_grid.h"
 
 const char *gg_standard_grid(int quick)
 {
