@@ -234,7 +234,7 @@ gg_status gg_api_file_to_bytes(const gg_result *run, const gg_comparison *both, 
                                size_t *size, gg_error *err)
 {
   gg_result_file file;
-  gg_files_result_file_open_in_memory(&file, run->origin.command ? run->origin.command : function);
+  GG_TRY(gg_files_result_file_open(&file, NULL, run->origin.command ? run->origin.command : function, err));
   GG_TRY(finish(&file, run, both, err));
   *bytes = file.bytes, *size = file.size;
   return GG_OK;

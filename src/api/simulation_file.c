@@ -27,7 +27,7 @@ gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, 
   GG_NEED_READING(simulation, path);
   GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &GG_STOP_OF(stop, context)};
   gg_status status = put_all(simulation, &archive, err);
-  if (status == GG_OK) status = gg_files_checkpoint_write(path, false, &archive, &simulation->scene, err);
+  if (status == GG_OK) status = gg_files_checkpoint_write(path, false, true, &archive, &simulation->scene, err);
   return gg_base_callback_settle(status, err);
 }
 

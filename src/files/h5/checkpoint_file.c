@@ -74,8 +74,8 @@ static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
   return kept ? GG_OK : gg_io_path_write_error(file->path, strerror(errno), err);
 }
 
-static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
-                          gg_error *err)
+gg_status gg_files_checkpoint_write(const char *path, bool locked, bool keep, const gg_archive *a,
+                                    const gg_scene *scene, gg_error *err)
 {
   gg_atomic_file file;
   size_t size = 0;
@@ -89,19 +89,8 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   if (status == GG_OK && a->stop && gg_stop_asked(a->stop))
     status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK && keep) status = keep_before(&file, err);
-  return gg_io_atomic_commit(&file, status, err);
-}
-
-gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene,
-                                    gg_error *err)
-{
-  return write_it(path, locked, true, a, scene, err);
-}
-
-gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *a, const gg_scene *scene, gg_error *err)
-{
-  GG_TRY(write_it(path, true, false, a, scene, err));
-  return gg_files_checkpoint_remove_before(path, err);
+  GG_TRY(gg_io_atomic_commit(&file, status, err));
+  return keep ? GG_OK : gg_files_checkpoint_remove_before(path, err);
 }
 
 static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)

@@ -240,13 +240,8 @@ typedef struct gg_result_writer {
 
 gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
-  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
-  return gg_io_atomic_open(&f->file, path, false, err);
-}
-
-void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command)
-{
-  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = true};
+  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = !path};
+  return path ? gg_io_atomic_open(&f->file, path, false, err) : GG_OK;
 }
 
 static void forget(gg_result_file *f)
