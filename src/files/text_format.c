@@ -97,12 +97,6 @@ static void add_surface(const gg_scene *s, const char *varied, char *text, size_
   if (!smooth && frictional && !any_mu) add_pairs(text, size, s, "mu", GG_OF_MU, s->collision.mu);
 }
 
-static void add_injection(const gg_scene *s, char *text, size_t size)
-{
-  if (gg_scene_has_kicks(s)) gg_base_text_append(text, size, ", kicks");
-  if (gg_scene_has_torque(s)) gg_base_text_append(text, size, ", torque");
-}
-
 void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, size_t size)
 {
   if (!size) return;
@@ -112,7 +106,8 @@ void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, siz
   if (!has(varied, "phi")) gg_base_text_append(text, size, ", phi %g", s->phi);
   add_law(s, varied, text, size);
   add_surface(s, varied, text, size);
-  add_injection(s, text, size);
+  if (gg_scene_has_kicks(s)) gg_base_text_append(text, size, ", kicks");
+  if (gg_scene_has_torque(s)) gg_base_text_append(text, size, ", torque");
   if (has(varied, "species")) return;
   if (s->n_species > 2) gg_base_text_append(text, size, "; %d species", s->n_species);
   if (s->n_species == 2) {
