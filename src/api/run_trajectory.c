@@ -3,11 +3,11 @@
  *
  * If a run does not resume from the log beside its checkpoint, an earlier run may still need that log. So the run
  * writes X.frames.new, and its first checkpoint replaces the files of the earlier run in three steps. After a kill -9
- * there are before the steps      X.h5, X.h5.1 and X.frames of the earlier run, which can be resumed; X.frames.new is
- * not needed X.h5 is replaced      the new X.h5 with X.frames.new; X.h5.1 of the earlier run with X.frames X.h5.1 is
- * removed     the new X.h5 with X.frames.new; X.frames of the earlier run is not needed X.frames is replaced  X.h5 and
- * X.frames of the new run The next run with checkpoints there finds the log that is needed by the mark in the
- * checkpoint (resolve_new). */
+ * the next run finds the log that is needed by the mark in the checkpoint (resolve_new). There are
+ * - before the steps: X.h5, X.h5.1 and X.frames of the earlier run, which can be resumed; X.frames.new is not needed;
+ * - once X.h5 is replaced: the new X.h5 with X.frames.new, and X.h5.1 of the earlier run with X.frames;
+ * - once X.h5.1 is removed: the new X.h5 with X.frames.new; X.frames of the earlier run is not needed;
+ * - once X.frames is replaced: X.h5 and X.frames of the new run. */
 #include <errno.h>
 #include <libgen.h>
 #include <stdio.h>
