@@ -13,6 +13,14 @@
 #include "run/result.h"
 
 #define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)
+/* Declarations: the same, and the first argument is a handle, which the call has for itself, or reads (base/busy.h). */
+#define GG_NEED_ALONE(...)                                                                                             \
+  GG_NEED(__VA_ARGS__);                                                                                                \
+  GG_USE_ALONE(GG_FIRST(__VA_ARGS__, ))
+#define GG_NEED_READING(...)                                                                                           \
+  GG_NEED(__VA_ARGS__);                                                                                                \
+  GG_USE_READING(GG_FIRST(__VA_ARGS__, ))
+#define GG_FIRST(first, ...) first
 #define GG_NEED_CALLBACK(argument) GG_CHECK_ARGUMENTS(#argument, (argument) ? "" : NULL)
 #define GG_CHECK_ARGUMENTS(names, ...)                                                                                 \
   GG_TRY(gg_api_arguments_check(__func__, names, (const void *const[]){__VA_ARGS__},                                   \
@@ -31,8 +39,8 @@ gg_status gg_api_options_copy(const char *function, void *copy, size_t own_size,
 /* scene.c: a copy of the scene, with its defaults filled in and checked. Every use of a scene begins with this call. */
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err);
 
-/* text.c: GG_BAD_INPUT for an unknown quantity, with a spelling suggestion. */
-gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err);
+/* text.c: the row of a quantity; GG_BAD_INPUT for an unknown one, with a spelling suggestion. */
+gg_status gg_api_row_find(const gg_quantity_rows *rows, const char *name, const gg_quantity_row **row, gg_error *err);
 
 /* comparison.c: for GG_CLEARED. */
 void gg_api_comparison_freed(gg_comparison **comparison);
@@ -49,6 +57,8 @@ typedef struct gg_api_request {
   bool made;
 } gg_api_request;
 bool gg_api_is_requested(void *request);
+/* The gg_stop of the callback, for the block. */
+#define GG_STOP_OF(stop, context) ((gg_stop){gg_api_is_requested, &(gg_api_request){stop, context, false}})
 
 /* result.c: a curve, and its k-th number, as the interface has them; the unit is that of correlation times. */
 gg_curve_data gg_api_curve_view(const gg_curve *curve);
@@ -57,7 +67,7 @@ gg_status gg_api_curve_number(const gg_curve *c, size_t k, const char *unit, gg_
 /* result.c: the file of a run, or of a comparison (NULL: the run), on disk or in memory. The file's command is that of
  * the run, or the name of the function. */
 gg_status gg_api_file_write(const gg_result *run, const gg_comparison *both, const char *function, const char *path,
-                            gg_api_request request, gg_error *err);
+                            const gg_stop *stop, gg_error *err);
 gg_status gg_api_file_to_bytes(const gg_result *run, const gg_comparison *both, const char *function, void **bytes,
                                size_t *size, gg_error *err);
 

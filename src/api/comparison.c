@@ -68,12 +68,10 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
                                gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(scene, comparison);
-  gg_api_request request = {stop, context, false};
   const unsigned before = gg_base_memory_failures();
   GG_CLEARED(gg_api_comparison_freed) gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   GG_FREED gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
-  gg_status status =
-      model ? evaluate(c, scene, theory, &(gg_stop){gg_api_is_requested, &request}, model, err) : GG_FAILED;
+  gg_status status = model ? evaluate(c, scene, theory, &GG_STOP_OF(stop, context), model, err) : GG_FAILED;
   GG_TRY(gg_base_memory_check(before, gg_base_callback_settle(status, err), err));
   return GG_HAND_OVER(comparison, c), GG_OK;
 }
@@ -135,9 +133,9 @@ const gg_scene *gg_comparison_scene(const gg_comparison *comparison)
 
 static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, gg_error *err)
 {
-  const gg_quantity_row *row = gg_run_rows_find(&c->rows, name);
-  *q = row ? row->quantity : GG_MOST_QUANTITIES;
-  return row ? GG_OK : gg_api_no_quantity(&c->rows, name, err);
+  const gg_quantity_row *row;
+  GG_TRY(gg_api_row_find(&c->rows, name, &row, err));
+  return *q = row->quantity, GG_OK;
 }
 
 gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err)
@@ -322,8 +320,8 @@ gg_status gg_comparison_write(const gg_comparison *comparison, const char *path,
   GG_NEED(comparison, path);
   const gg_result *run;
   GG_TRY(first_of(comparison, path, &run, err));
-  return gg_api_file_write(run, comparison->of_one ? NULL : comparison, __func__, path,
-                           (gg_api_request){stop, context, false}, err);
+  return gg_api_file_write(run, comparison->of_one ? NULL : comparison, __func__, path, &GG_STOP_OF(stop, context),
+                           err);
 }
 
 gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, size_t *size, gg_error *err)

@@ -58,14 +58,9 @@ static gg_status read_all(FILE *in, const char *path, char **text, gg_error *err
   struct stat about;
   if (fstat(fileno(in), &about) == 0 && !S_ISREG(about.st_mode))
     return gg_base_fail(err, GG_BAD_FILE, "%s: is no file, but a folder or a device", path);
-  long size = fseek(in, 0, SEEK_END) == 0 ? ftell(in) : -1;
-  if (size < 0 || fseek(in, 0, SEEK_SET) != 0)
-    return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  *text = gg_base_array_new((size_t)size + 1, 1, err);
-  if (!*text) return GG_FAILED;
-  if (fread(*text, 1, (size_t)size, in) == (size_t)size) return GG_OK;
-  free(*text);
-  return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
+  size_t room = 0;
+  if (getdelim(text, &room, '\0', in) >= 0) return GG_OK;
+  return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, feof(in) ? "it is empty" : strerror(errno));
 }
 
 static gg_status read_page(const char *given, char **text, gg_error *err)

@@ -84,8 +84,7 @@ static gg_status set_state(const gg_trajectory *t, const gg_frame *f, const doub
 gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation_state *state, const gg_grains *into,
                               gg_error *err)
 {
-  GG_NEED(trajectory);
-  GG_USE_ALONE(trajectory);
+  GG_NEED_ALONE(trajectory);
   gg_trajectory *t = trajectory;
   gg_frame f;
   double edges[9] = {0};
@@ -108,8 +107,7 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
 gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species, gg_species_state *state,
                                     gg_error *err)
 {
-  GG_NEED(trajectory, state);
-  GG_USE_READING(trajectory);
+  GG_NEED_READING(trajectory, state);
   if (!trajectory->last.model) return GG_REFUSE(err, "read a frame of the trajectory first");
   return gg_api_moments_species(&trajectory->last, species, 1, state, err);
 }

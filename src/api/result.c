@@ -13,12 +13,6 @@
 #include "files/result_document.h"
 #include "plot/plot.h"
 
-static gg_status find(const gg_result *r, const char *name, const gg_quantity_row **row, gg_error *err)
-{
-  *row = gg_run_rows_find(&r->rows, name);
-  return *row ? GG_OK : gg_api_no_quantity(&r->rows, name, err);
-}
-
 static gg_measurement measurement(const gg_result *r, const gg_quantity_row *row)
 {
   const gg_estimate *e = &r->value[row->quantity];
@@ -37,7 +31,7 @@ gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measu
 {
   GG_NEED(result, quantity, found);
   const gg_quantity_row *row;
-  GG_TRY(find(result, quantity, &row, err));
+  GG_TRY(gg_api_row_find(&result->rows, quantity, &row, err));
   *found = measurement(result, row);
   return GG_OK;
 }
@@ -70,8 +64,8 @@ gg_status gg_result_covariance(const gg_result *result, const char *quantity, co
   GG_NEED(result, quantity, other);
   const gg_quantity_row *one, *second;
   const char *why;
-  GG_TRY(find(result, quantity, &one, err));
-  GG_TRY(find(result, other, &second, err));
+  GG_TRY(gg_api_row_find(&result->rows, quantity, &one, err));
+  GG_TRY(gg_api_row_find(&result->rows, other, &second, err));
   *covariance = gg_run_result_covariance(result, one->quantity, second->quantity, &why);
   if (!why) return GG_OK;
   return GG_REFUSE(err, "the covariance of '%s' and '%s' cannot be had here: %s", quantity, other, why);
@@ -128,7 +122,7 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
 {
   GG_NEED(result, quantity, n);
   const gg_quantity_row *row;
-  GG_TRY(find(result, quantity, &row, err));
+  GG_TRY(gg_api_row_find(&result->rows, quantity, &row, err));
   for (int k = 0; k < GG_N_HISTORY; k++) {
     if (gg_common_quantity_of_history(k) != row->quantity || !result->history.value[k]) continue;
     *n = result->history.n;
@@ -227,11 +221,11 @@ static gg_status finish(gg_result_file *file, const gg_result *run, const gg_com
 }
 
 gg_status gg_api_file_write(const gg_result *run, const gg_comparison *both, const char *function, const char *path,
-                            gg_api_request request, gg_error *err)
+                            const gg_stop *stop, gg_error *err)
 {
   gg_result_file file;
   GG_TRY(gg_files_result_file_open(&file, path, run->origin.command ? run->origin.command : function, err));
-  file.file.stop = (gg_stop){gg_api_is_requested, &request};
+  file.file.stop = *stop;
   file.stop = &file.file.stop;
   return gg_base_callback_settle(finish(&file, run, both, err), err);
 }
@@ -240,22 +234,17 @@ gg_status gg_api_file_to_bytes(const gg_result *run, const gg_comparison *both, 
                                size_t *size, gg_error *err)
 {
   gg_result_file file;
-  gg_files_result_file_open_in_memory(&file, run->origin.command ? run->origin.command : function);
+  GG_TRY(gg_files_result_file_open(&file, NULL, run->origin.command ? run->origin.command : function, err));
   GG_TRY(finish(&file, run, both, err));
   *bytes = file.bytes, *size = file.size;
   return GG_OK;
-}
-
-void gg_result_free(gg_result *result)
-{
-  gg_run_result_free(result);
 }
 
 gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)(void *context), void *context,
                           gg_error *err)
 {
   GG_NEED(result, path);
-  return gg_api_file_write(result, NULL, __func__, path, (gg_api_request){stop, context, false}, err);
+  return gg_api_file_write(result, NULL, __func__, path, &GG_STOP_OF(stop, context), err);
 }
 
 gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err)
@@ -295,7 +284,6 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
     return GG_REFUSE(err, "%s: would be both the result and its picture; choose another picture", picture);
   gg_plot_paper paper;
   GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
-  gg_api_request request = {stop, context, false};
   GG_TRY(gg_plot_paper_choose(&paper, picture, format, width, err));
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   const unsigned before = gg_base_memory_failures();
@@ -303,8 +291,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   if (status == GG_OK) status = gg_plot_result_draw(&stored, &paper, picture, err);
   if (status == GG_OK && drawn) drawn(context, picture);
   if (status == GG_OK)
-    status =
-        gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &(gg_stop){gg_api_is_requested, &request}, err);
+    status = gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &GG_STOP_OF(stop, context), err);
   status = gg_base_callback_settle(status, err);
   return gg_base_memory_check(before, status, err); /* otherwise a picture could lack its title */
 }
@@ -321,7 +308,6 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                     int (*stop)(void *context), void *context, gg_error *err)
 {
   GG_NEED(result_file, prefix);
-  gg_api_request request = {stop, context, false};
   const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
   if (!*name) return GG_REFUSE(err, "'%s': the files need a prefix to their names", prefix);
   if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
@@ -329,6 +315,6 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
   GG_CLEARED(gg_files_stored_result_clear) gg_stored_result stored = {0};
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context,
-                                            &(gg_stop){gg_api_is_requested, &request}, err);
+                                            &GG_STOP_OF(stop, context), err);
   return gg_base_callback_settle(status, err);
 }

@@ -47,10 +47,8 @@ static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *
   gg_api_run_call *r = context;
   gg_status status = gg_api_trajectory_mark(r, archive, err);
   if (status == GG_OK) status = gg_api_log_mark(r, archive, err);
-  if (status == GG_OK)
-    status = r->log.place ? gg_files_checkpoint_replace(r->options.checkpoint, archive, &r->scene, err)
-                          : gg_files_checkpoint_write(r->options.checkpoint, true, archive, &r->scene, err);
   if (status != GG_OK) return status;
+  GG_TRY(gg_files_checkpoint_write(r->options.checkpoint, true, !r->log.place, archive, &r->scene, err));
   r->stored = true;
   GG_TRY(gg_files_frame_log_put_in_place(&r->log, err));
   if (r->options.stored) r->options.stored(r->options.context, r->options.checkpoint);

@@ -3,11 +3,11 @@
  *
  * If a run does not resume from the log beside its checkpoint, an earlier run may still need that log. So the run
  * writes X.frames.new, and its first checkpoint replaces the files of the earlier run in three steps. After a kill -9
- * there are before the steps      X.h5, X.h5.1 and X.frames of the earlier run, which can be resumed; X.frames.new is
- * not needed X.h5 is replaced      the new X.h5 with X.frames.new; X.h5.1 of the earlier run with X.frames X.h5.1 is
- * removed     the new X.h5 with X.frames.new; X.frames of the earlier run is not needed X.frames is replaced  X.h5 and
- * X.frames of the new run The next run with checkpoints there finds the log that is needed by the mark in the
- * checkpoint (resolve_new). */
+ * the next run finds the log that is needed by the mark in the checkpoint (resolve_new). There are
+ * - before the steps: X.h5, X.h5.1 and X.frames of the earlier run, which can be resumed; X.frames.new is not needed;
+ * - once X.h5 is replaced: the new X.h5 with X.frames.new, and X.h5.1 of the earlier run with X.frames;
+ * - once X.h5.1 is removed: the new X.h5 with X.frames.new; X.frames of the earlier run is not needed;
+ * - once X.frames is replaced: X.h5 and X.frames of the new run. */
 #include <errno.h>
 #include <libgen.h>
 #include <stdio.h>
@@ -92,13 +92,6 @@ static gg_status open_earlier(gg_api_run_call *r, gg_frame_log *earlier, gg_erro
                       why.message, (unsigned long long)mark.frames);
 }
 
-/* File name of a path, without folders. */
-static const char *base_of(const char *path)
-{
-  const char *slash = strrchr(path, '/');
-  return slash ? slash + 1 : path;
-}
-
 static gg_status open_log(gg_api_run_call *r, const gg_frame_log *earlier, gg_error *err)
 {
   const char *target = r->temporary[GG_TEMPORARY_FRAMES];
@@ -172,7 +165,8 @@ gg_status gg_api_trajectory_mark(const gg_api_run_call *r, gg_archive *archive, 
   GG_TRY(gg_files_frame_log_sync(&r->log, err));
   GG_FREED char *path = gg_files_frame_log_path(r->options.checkpoint);
   if (!path) return gg_base_out_of_memory(err);
-  snprintf(name, sizeof name, "%s", base_of(path));
+  const char *slash = strrchr(path, '/');
+  snprintf(name, sizeof name, "%s", slash ? slash + 1 : path);
   GG_TRY(gg_base_archive_put(archive, name_item, GG_ITEM_U8, name, sizeof name, err));
   return gg_base_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }
@@ -188,8 +182,7 @@ static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *
 
 gg_status gg_api_trajectory_finish(gg_api_run_call *r, gg_result *result, gg_error *err)
 {
-  if (r->frames_missing)
-    gg_run_result_warn(result, "the trajectory begins where the run was resumed: the run before kept none");
+  if (r->frames_missing) GG_WARN(result, "the trajectory begins where the run was resumed: the run before kept none");
   return r->log.fd >= 0 ? gg_files_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }
 

@@ -95,11 +95,6 @@ gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
   return made ? *copy = made, GG_OK : GG_FAILED;
 }
 
-void gg_scene_free(gg_scene *scene)
-{
-  gg_scene_release(scene);
-}
-
 gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err)
 {
   GG_NEED(scene, key, value);

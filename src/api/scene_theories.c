@@ -2,11 +2,9 @@
 #include "api/scene_theories.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "api/api.h"
 #include "base/printable.h"
@@ -91,14 +89,6 @@ static gg_status add_formulas(const theories_reader *t, const char *key, const c
   return status;
 }
 
-/* Path of a file: relative names are relative to the folder of the scene's file. */
-static void find_file(const char *scene, const char *file, char path[PATH_MAX])
-{
-  const char *slash = scene ? strrchr(scene, '/') : NULL;
-  const int folder = *file != '/' && slash ? (int)(slash - scene) + 1 : 0;
-  if (snprintf(path, PATH_MAX, "%.*s%s", folder, folder ? scene : "", file) >= PATH_MAX) *path = '\0';
-}
-
 /* Absolute path as JSON; null if it is not printable; NULL: out of memory. */
 static json_t *absolute(const char *path)
 {
@@ -112,9 +102,6 @@ static gg_status read_points(const char *path, gg_points_theory **made, char ***
 {
   GG_FREED char *text = NULL;
   size_t length;
-  struct stat about;
-  if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block whoever reads the scene */
-    return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
   if (length > GG_SCENE_MAX_BYTES) return GG_REFUSE(err, "%s: is larger than 1 MiB", path);
   return gg_theory_points_read(text, path, made, quantity, names, err);
@@ -126,8 +113,9 @@ static gg_status add_points(const theories_reader *t, const char *key, const cha
   char path[PATH_MAX];
   GG_FREED char *names = NULL, **quantity = NULL;
   gg_points_theory *made = NULL;
-  find_file(t->path, gg_scene_scalar(node), path);
-  if (read_points(path, &made, &quantity, &names, &why) != GG_OK) return reject(&t->reader, node, key, &why);
+  if (gg_scene_file_beside(gg_scene_scalar(node), t->path, path, &why) != GG_OK ||
+      read_points(path, &made, &quantity, &names, &why) != GG_OK)
+    return reject(&t->reader, node, key, &why);
   const gg_theory_definition definition = {.name = name,
                                            .title = "a table of points of the scene",
                                            .assumptions = "A table named in the scene, under theories.",

@@ -99,16 +99,14 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
 
 gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err)
 {
-  GG_NEED(session, progress);
-  GG_USE_READING(session);
+  GG_NEED_READING(session, progress);
   *progress = session->progress;
   return GG_OK;
 }
 
 gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err)
 {
-  GG_NEED(session, result);
-  GG_USE_ALONE(session);
+  GG_NEED_ALONE(session, result);
   GG_CLEARED(gg_run_result_freed) gg_result *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   if (session->over) gg_run_replicas_level(&session->all);

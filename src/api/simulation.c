@@ -209,8 +209,7 @@ enum { MOST_EMPTY_STRETCHES = 100 };
 
 gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_more, gg_error *err)
 {
-  GG_NEED(simulation);
-  GG_USE_ALONE(simulation);
+  GG_NEED_ALONE(simulation);
   double time = INFINITY;
   for (int empty = 0; collisions_more > 0; empty++) {
     uint64_t before = collisions_more;

@@ -24,22 +24,18 @@ static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, int (*stop)(void *context),
                              void *context, gg_error *err)
 {
-  GG_NEED(simulation, path);
-  GG_USE_READING(simulation);
-  gg_api_request request = {stop, context, false};
-  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_NEED_READING(simulation, path);
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &GG_STOP_OF(stop, context)};
   gg_status status = put_all(simulation, &archive, err);
-  if (status == GG_OK) status = gg_files_checkpoint_write(path, false, &archive, &simulation->scene, err);
+  if (status == GG_OK) status = gg_files_checkpoint_write(path, false, true, &archive, &simulation->scene, err);
   return gg_base_callback_settle(status, err);
 }
 
 gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*stop)(void *context), void *context,
                                  void **bytes, size_t *size, gg_error *err)
 {
-  GG_NEED(simulation, bytes, size);
-  GG_USE_READING(simulation);
-  gg_api_request request = {stop, context, false};
-  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_NEED_READING(simulation, bytes, size);
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &GG_STOP_OF(stop, context)};
   GG_FREED void *made = NULL;
   size_t length = 0;
   gg_status status = put_all(simulation, &archive, err);
@@ -68,15 +64,15 @@ static gg_status take_all(gg_simulation *s, const gg_archive *a, gg_error *err)
   return gg_common_engine_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
 }
 
-static gg_status load(const gg_archive *a, const char *path, const gg_scene *scene, gg_api_request *request,
-                      gg_simulation **simulation, gg_error *err)
+static gg_status load(const gg_archive *a, const char *path, const gg_scene *scene, int (*stop)(void *context),
+                      void *context, gg_simulation **simulation, gg_error *err)
 {
   gg_scene stored;
   gg_simulation *s;
   GG_TRY(stored_scene(a, path, &stored, err));
   gg_scene settled = scene ? *scene : stored;
   GG_TRY(gg_scene_resumption_settle(&settled, a, err));
-  GG_TRY(gg_api_simulation_prepare(&settled, request->stop, request->context, &s, err));
+  GG_TRY(gg_api_simulation_prepare(&settled, stop, context, &s, err));
   gg_status status = take_all(s, a, err);
   return gg_api_simulation_hand_over(s, status, simulation, err);
 }
@@ -85,13 +81,12 @@ gg_status gg_simulation_load(const char *path, const gg_scene *scene, int (*stop
                              gg_simulation **simulation, gg_error *err)
 {
   GG_NEED(path, simulation);
-  gg_api_request request = {stop, context, false};
-  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &GG_STOP_OF(stop, context)};
   bool older = false;
   gg_status status = gg_files_checkpoint_read(path, false, &archive, &older, err);
   if (status == GG_OK && older)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the earlier one is intact: %s.1", path, path);
-  if (status == GG_OK) status = load(&archive, path, scene, &request, simulation, err);
+  if (status == GG_OK) status = load(&archive, path, scene, stop, context, simulation, err);
   return gg_base_callback_settle(status, err);
 }
 
@@ -99,9 +94,8 @@ gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scen
                                    void *context, gg_simulation **simulation, gg_error *err)
 {
   GG_NEED(bytes, simulation);
-  gg_api_request request = {stop, context, false};
-  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  GG_CLEARED(gg_base_archive_clear) gg_archive archive = {.stop = &GG_STOP_OF(stop, context)};
   gg_status status = gg_files_checkpoint_from_bytes(bytes, size, &archive, err);
-  if (status == GG_OK) status = load(&archive, "the bytes", scene, &request, simulation, err);
+  if (status == GG_OK) status = load(&archive, "the bytes", scene, stop, context, simulation, err);
   return gg_base_callback_settle(status, err);
 }

@@ -96,8 +96,7 @@ static gg_status go_on(gg_simulation *s, const gg_model *model, const gg_grains 
 
 gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *grains, size_t n, gg_error *err)
 {
-  GG_NEED(simulation, grains);
-  GG_USE_ALONE(simulation);
+  GG_NEED_ALONE(simulation, grains);
   const gg_grain_arrays given = arrays_of(grains);
   GG_TRY(gg_common_grains_check(&simulation->model, &given, n, err));
   return go_on(simulation, &simulation->model, grains, err);
@@ -106,8 +105,7 @@ gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *g
 gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *context), void *context,
                              gg_simulation **copy, gg_error *err)
 {
-  GG_NEED(simulation, copy);
-  GG_USE_READING(simulation);
+  GG_NEED_READING(simulation, copy);
   GG_CLEARED(gg_base_archive_clear) gg_archive archive = {0};
   gg_simulation *s = gg_api_simulation_like(simulation, err);
   if (!s) return GG_FAILED;

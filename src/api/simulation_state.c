@@ -67,16 +67,14 @@ int gg_simulation_species(const gg_simulation *simulation)
 gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
                                     gg_error *err)
 {
-  GG_NEED(simulation, state);
-  GG_USE_READING(simulation);
+  GG_NEED_READING(simulation, state);
   const gg_moments m = sum_up(simulation);
   return gg_api_moments_species(&m, species, gg_api_simulation_unit(simulation), state, err);
 }
 
 gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)
 {
-  GG_NEED(simulation, state);
-  GG_USE_READING(simulation);
+  GG_NEED_READING(simulation, state);
   const gg_model *model = &simulation->model;
   const gg_moments m = sum_up(simulation);
   const gg_engine_state engine = gg_engine_state_of(simulation->engine);
@@ -94,8 +92,7 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
 
 gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err)
 {
-  GG_NEED(simulation, into);
-  GG_USE_READING(simulation);
+  GG_NEED_READING(simulation, into);
   const gg_model *model = &simulation->model;
   if (into->position && model->homogeneous)
     return GG_REFUSE(err, "%s is spatially homogeneous: it has no positions", simulation->engine->ops->name);
@@ -135,8 +132,7 @@ void gg_api_simulation_collect(gg_simulation *s)
 
 gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err)
 {
-  GG_NEED(simulation, sums);
-  GG_USE_ALONE(simulation);
+  GG_NEED_ALONE(simulation, sums);
   gg_api_simulation_collect(simulation);
   struct gg_simulation_clock *clock = &simulation->clock;
   *sums = clock->sums;
@@ -151,8 +147,7 @@ gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums 
 
 gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg_error *err)
 {
-  GG_NEED(simulation, hash);
-  GG_USE_READING(simulation);
+  GG_NEED_READING(simulation, hash);
   gg_simulation_state state;
   GG_TRY(gg_simulation_get_state(simulation, &state, err));
   GG_FREED double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);

@@ -18,7 +18,7 @@ static void destroy(void *handle)
 {
   gg_sweep *sweep = handle;
   for (size_t f = 0; f < sweep->n_varied; f++) gg_sweep_varied_clear(&sweep->varied[f]);
-  gg_scene_release(sweep->base);
+  gg_scene_free(sweep->base);
   free(sweep->point);
   free(sweep->name);
   free(sweep);
@@ -84,8 +84,7 @@ static gg_status check_open(const gg_sweep *sweep, gg_error *err)
 
 gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err)
 {
-  GG_NEED(sweep, key, value);
-  GG_USE_ALONE(sweep);
+  GG_NEED_ALONE(sweep, key, value);
   GG_TRY(check_open(sweep, err));
   if (gg_sweep_varies(sweep, key)) return GG_REFUSE(err, "key '%.60s': is varied: each point sets its own value", key);
   return strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
@@ -94,8 +93,7 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
 
 gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err)
 {
-  GG_NEED(sweep, key, values);
-  GG_USE_ALONE(sweep);
+  GG_NEED_ALONE(sweep, key, values);
   GG_CLEARED(gg_sweep_values_clear) gg_values list = {0};
   snprintf(list.key, sizeof list.key, "%s", key);
   GG_TRY(check_open(sweep, err));
@@ -110,8 +108,7 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
 
 gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err)
 {
-  GG_NEED(sweep);
-  GG_USE_ALONE(sweep);
+  GG_NEED_ALONE(sweep);
   return gg_sweep_check_points(sweep, err);
 }
 
@@ -141,8 +138,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_er
 
 gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err)
 {
-  GG_NEED(sweep, point);
-  GG_USE_READING(sweep);
+  GG_NEED_READING(sweep, point);
   gg_scene scene;
   GG_TRY(resolve(sweep, i, &scene, err));
   *point =
@@ -153,8 +149,7 @@ gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg
 
 gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_error *err)
 {
-  GG_NEED(sweep, scene);
-  GG_USE_READING(sweep);
+  GG_NEED_READING(sweep, scene);
   gg_scene made;
   GG_TRY(resolve(sweep, i, &made, err));
   return gg_scene_copy(&made, scene, err);
@@ -163,8 +158,7 @@ gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_e
 gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_point_state *state, char **file,
                         gg_error *err)
 {
-  GG_NEED(sweep, folder, state);
-  GG_USE_READING(sweep);
+  GG_NEED_READING(sweep, folder, state);
   GG_TRY(check_point(sweep, i, err));
   const uint64_t id = sweep->point[i].id;
   const bool fell_short = gg_sweep_point_status(folder, id) == GG_POINT_SHORT;
@@ -177,8 +171,7 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
 
 gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err)
 {
-  GG_NEED(sweep, folder, text);
-  GG_USE_READING(sweep);
+  GG_NEED_READING(sweep, folder, text);
   GG_TRY(check_point(sweep, 0, err));
   return gg_api_text_copy(gg_sweep_document(sweep, folder), text, err);
 }

@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gg_sweep_collect: the results of a sweep as tables and a picture. */
+/* What the results of a sweep are made into: gg_sweep_collect, tables and a picture; gg_sweep_validate, the verdict on
+ * a grid of comparisons against Enskog's equation. */
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "api/api.h"
-#include "base/cancellation.h"
+#include "base/memory.h"
 #include "io/atomic_file.h"
-#include "sweep/sweep_table.h"
+#include "io/output_path.h"
+#include "plot/plot.h"
+#include "sweep/validation.h"
 
 typedef struct collecting {
   const gg_sweep *sweep;
@@ -23,17 +27,6 @@ typedef struct collecting {
 static void report_file(const collecting *c, const char *file)
 {
   if (c->written) c->written(c->context, file);
-}
-
-static void warn_of_builds(const collecting *c)
-{
-  char text[200];
-  if (!c->table.n_other_builds || !c->options.warn) return;
-  snprintf(text, sizeof text,
-           "%zu of %zu points are by another build of graingas, whose numbers may differ: see the column `build`; the "
-           "sweep runs them again",
-           c->table.n_other_builds, c->table.n_documents);
-  c->options.warn(c->context, text);
 }
 
 /* Whether a failed picture is only a warning, e.g. because words have no axis: the tables are complete. */
@@ -109,7 +102,8 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   GG_TRY(gg_io_atomic_check_writable(c->h5, "tables are files", err));
   if (c->picture) GG_TRY(gg_io_atomic_check_writable(c->picture, "pictures are files", err));
   GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, NULL, err));
-  warn_of_builds(c);
+  gg_sweep_point_table_warn(&c->table, ": see the column `build`; the sweep runs them again", c->options.warn,
+                            c->context);
   GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
   report_file(c, c->csv);
   GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
@@ -136,4 +130,35 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
   gg_status status = write_all(&c, folder, err);
   gg_sweep_point_table_clear(&c.table);
   return gg_base_callback_settle(status, err);
+}
+
+const char *gg_standard_grid(int quick)
+{
+  return quick ? gg_sweep_quick_grid : gg_sweep_standard_grid;
+}
+
+gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validate_options *options,
+                            void (*written)(void *context, const char *file), void *context, char **verdict,
+                            gg_error *err)
+{
+  GG_NEED(sweep, folder, verdict);
+  gg_validate_options o;
+  GG_COPY_OPTIONS(o, options);
+  GG_CLEARED(gg_sweep_point_table_clear) gg_point_table table = {0};
+  const gg_stop stop = GG_STOP_OF(o.stop, context);
+  *verdict = NULL;
+  GG_TRY(gg_sweep_check(sweep, err));
+  if (sweep->settings.does != GG_DOES_COMPARE)
+    return GG_REFUSE(err, "%s: does: %s; validation needs does: compare", sweep->name, gg_sweep_does(sweep));
+  if (gg_io_path_is_same_file(o.page, sweep->name))
+    return GG_REFUSE(err, "%s: would be overwritten by its own page; choose another page", sweep->name);
+  if (o.picture) GG_TRY(gg_plot_paper_check(o.picture, o.width, err));
+  gg_status status = gg_sweep_point_table_read(&table, sweep, folder, &stop, err);
+  if (status == GG_OK) {
+    gg_sweep_point_table_warn(&table, "", o.warn, context);
+    status = gg_sweep_validate_table(&table, sweep, &o, written, context, &stop, verdict, err);
+  }
+  status = gg_base_callback_settle(status, err);
+  if (status != GG_OK && status != GG_FAILED) free(*verdict), *verdict = NULL;
+  return status;
 }

@@ -11,7 +11,6 @@
 #include "base/thread_pool.h"
 #include "common/engine.h"
 #include "files/result_document.h"
-#include "files/text_format.h"
 #include "theory/references.h"
 
 const char *gg_version(void)
@@ -81,12 +80,6 @@ gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
   return GG_OK;
 }
 
-void gg_format_estimate(double mean, double error, char *text, size_t size)
-{
-  if (!text || !size) return;
-  gg_files_estimate_format(mean, error, text, size);
-}
-
 const char *gg_nearest_word(const char *word, const char *const *known)
 {
   if (!word || !known) return NULL;
@@ -95,9 +88,10 @@ const char *gg_nearest_word(const char *word, const char *const *known)
   return nearest.best;
 }
 
-gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err)
+gg_status gg_api_row_find(const gg_quantity_rows *rows, const char *name, const gg_quantity_row **row, gg_error *err)
 {
   gg_nearest nearest = {.word = name};
+  if ((*row = gg_run_rows_find(rows, name))) return GG_OK;
   for (int i = 0; i < rows->n; i++) gg_base_spelling_try(&nearest, rows->row[i].name);
   if (!nearest.best) return GG_REFUSE(err, "there is no quantity called '%.60s'", name);
   return GG_REFUSE(err, "there is no quantity called '%.60s'; did you mean '%s'?", name, nearest.best);

@@ -89,8 +89,8 @@ bool gg_base_memory_stream_close(FILE *out, char *const *text)
   return whole;
 }
 
-/* Lists hold texts for people and documents. */
-void gg_base_string_list_take(gg_string_list *list, char *text)
+/* Append a text from malloc (NULL: it could not be had). Lists hold texts for people and documents. */
+static void take(gg_string_list *list, char *text)
 {
   char **more = text ? realloc(list->text, (list->n + 1) * sizeof *more) : NULL;
   if (text) gg_base_text_make_printable(text);
@@ -110,12 +110,12 @@ void gg_base_string_list_add(gg_string_list *list, const char *format, ...)
   va_start(args, format);
   if (vasprintf(&text, format, args) < 0) text = NULL;
   va_end(args);
-  gg_base_string_list_take(list, text);
+  take(list, text);
 }
 
 void gg_base_string_list_move(gg_string_list *to, gg_string_list *from)
 {
-  for (size_t i = 0; i < from->n; i++) gg_base_string_list_take(to, from->text[i]);
+  for (size_t i = 0; i < from->n; i++) take(to, from->text[i]);
   free(from->text);
   *from = (gg_string_list){0};
 }

@@ -24,8 +24,6 @@ typedef struct gg_string_list {
 
 /* Out of memory: the list stays as it is. */
 void gg_base_string_list_add(gg_string_list *list, const char *format, ...) GG_PRINTF(2, 3);
-void gg_base_string_list_take(gg_string_list *list,
-                              char *text); /* from malloc, and the list's from now on; NULL: nothing */
 void gg_base_string_list_move(gg_string_list *to, gg_string_list *from); /* behind the others; nothing stays there */
 void gg_base_string_list_clear(gg_string_list *list);
 /* NULL after the last. */

@@ -172,18 +172,13 @@ static void find_theories(gg_error_state *s, const gg_model *m)
   }
 }
 
-/* Whether the quantity needs spins, which smooth grains do not have. */
-static bool is_of_spins(gg_quantity q)
-{
-  return q == GG_Q_TEMPERATURE_RATIO || q == GG_Q_KURTOSIS_WX;
-}
-
 /* Whether a long run is needed: some reference error is above a tenth of the error of a run of this length. */
 static bool wants_long_run(const gg_error_state *s, double seconds)
 {
   bool wants = false;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
-    if (!s->rough && is_of_spins(gg_bench_error_quantities(s->flow)[q])) continue;
+    const gg_quantity name = gg_bench_error_quantities(s->flow)[q];
+    if (!s->rough && (name == GG_Q_TEMPERATURE_RATIO || name == GG_Q_KURTOSIS_WX)) continue; /* they need spins */
     double best = INFINITY;
     for (int i = 0; i < GG_ERROR_METHODS; i++) {
       const gg_course *c = &s->course[i];

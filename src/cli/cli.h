@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The graingas command, a program on graingas.h. Each subcommand is a file and a row of commands.c, and returns its
- * exit code. Only `bench` uses more of the library, and main() prepares the process (files/process.h). */
+/* The graingas command, a program on graingas.h. Each subcommand is a row of commands.c, and returns its exit code.
+ * Only `bench` uses more of the library, and main() prepares the process (files/process.h). */
 #ifndef GG_CLI_H
 #define GG_CLI_H
 
@@ -29,9 +29,9 @@ extern const gg_command gg_cli_commands[]; /* ends with a NULL name */
 /* Spelling suggestion: a command, --help or --version; NULL if none is near. */
 const char *gg_cli_nearest_command(const char *word);
 
-gg_command_main gg_cli_compare_main, gg_cli_run_main, gg_cli_theory_main, gg_cli_sweep_main, gg_cli_validate_main,
-    gg_cli_plot_main, gg_cli_export_main, gg_cli_info_main, gg_cli_cite_main, gg_cli_fingerprint_main, gg_cli_init_main,
-    gg_cli_page_main, gg_cli_bench_main;
+gg_command_main gg_cli_run_main, gg_cli_theory_main, gg_cli_sweep_main, gg_cli_validate_main, gg_cli_plot_main,
+    gg_cli_export_main, gg_cli_info_main, gg_cli_cite_main, gg_cli_fingerprint_main, gg_cli_init_main, gg_cli_page_main,
+    gg_cli_bench_main;
 
 /* print.c: print "graingas: MESSAGE" on standard error; returns the exit code of the error. */
 int gg_cli_report(const gg_error *err);
@@ -47,6 +47,8 @@ gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...
 void gg_cli_append(char *text, size_t size, const char *format, ...) GG_CLI_PRINTF(3, 4);
 /* Whether a word is among those of a text, separated by blanks. */
 bool gg_cli_has_word(const char *words, const char *word);
+/* Whether a text ends like this, after something else. */
+bool gg_cli_has_ending(const char *text, const char *ending);
 
 /* Warn on standard error about an unusual result file (gg_result_file_notice). */
 void gg_cli_print_notice(const char *result_file);

@@ -9,7 +9,7 @@ const gg_command gg_cli_commands[] = {
      "Runs event-driven molecular dynamics (md) and Enskog Monte Carlo (dsmc) on the scene, evaluates every theory "
      "that applies, and prints all of them side by side. Writes an HDF5 result file and a picture. Checkpoints and "
      "--resume work as for run.",
-     gg_cli_compare_main},
+     gg_cli_run_main},
     {"run", "SCENE.yaml", "One engine: the scene's, or the one of --engine",
      "With output.checkpoint_every above 0 in the scene, the run keeps a checkpoint beside the result "
      "(usf.checkpoint.h5 for usf.h5) and removes it at the end. --resume continues from it with bit-identical results. "

@@ -223,12 +223,6 @@ static const char *entry_of(const char *word)
   return word;
 }
 
-static bool has_ending(const char *word, const char *ending)
-{
-  const size_t length = strlen(word), tail = strlen(ending);
-  return length > tail && strcmp(word + length - tail, ending) == 0;
-}
-
 bool gg_cli_is_word(const char *input)
 {
   static const char *const endings[] = {".yaml", ".yml", ".h5", ".json", ".1"};
@@ -236,7 +230,7 @@ bool gg_cli_is_word(const char *input)
   if (!*input || strspn(input, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.") < strlen(input))
     return false;
   for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
-    if (has_ending(input, endings[i])) return false;
+    if (gg_cli_has_ending(input, endings[i])) return false;
   return true;
 }
 

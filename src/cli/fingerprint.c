@@ -3,7 +3,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "cli/run_command.h"
+#include "cli/options.h"
 
 enum { COLLISIONS = 100000 };
 

@@ -229,8 +229,7 @@ static int inform_result(const gg_options *o)
 /* Whether a file is HDF5, by its first bytes or, if these are damaged, by its name. */
 static bool is_hdf5(const char *path)
 {
-  size_t length = strlen(path);
-  if (length > 3 && strcmp(path + length - 3, ".h5") == 0) return true;
+  if (gg_cli_has_ending(path, ".h5")) return true;
   char start[8] = "";
   struct stat about;
   if (stat(path, &about) != 0 || !S_ISREG(about.st_mode)) return false; /* a pipe can be read once */

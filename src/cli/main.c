@@ -30,12 +30,6 @@ static void print_help(void)
   gg_cli_print_wrapped(stdout, "", "See graingas COMMAND --help. Begin with: graingas compare examples/usf.yaml");
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-  size_t length = strlen(text), tail = strlen(end);
-  return length > tail && strcmp(text + length - tail, end) == 0;
-}
-
 static bool has_value(const char *word, const char *option)
 {
   size_t length = strlen(option);
@@ -48,10 +42,10 @@ static int unknown(const char *word)
   if (strcmp(word, "reproduce") == 0)
     return gg_cli_fail(GG_BAD_INPUT,
                        "the figures of papers are reproduced in Python: validation/reproduce of the sources");
-  if (ends_with(word, ".yaml") || ends_with(word, ".yml"))
+  if (gg_cli_has_ending(word, ".yaml") || gg_cli_has_ending(word, ".yml"))
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this scene, e.g. %s compare %s", word,
                        program_invocation_name, word);
-  if (ends_with(word, ".h5"))
+  if (gg_cli_has_ending(word, ".h5"))
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this result, e.g. %s info %s", word,
                        program_invocation_name, word);
   if (has_value(word, "--help") || has_value(word, "--version"))

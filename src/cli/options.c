@@ -297,9 +297,10 @@ void gg_cli_options_clear(gg_options *o)
   *o = (gg_options){0};
 }
 
-gg_status gg_cli_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
-                             void *target, gg_error *err)
+/* Apply a KEY=VALUE given after --vary or --set. */
+static gg_status apply(bool vary, const char *typed, gg_scene *scene, gg_sweep *sweep, gg_error *err)
 {
+  const char *option = vary ? "vary" : "set", *example = vary ? "phi=0.1:0.5:0.1" : "collision.e=0.8";
   const char *equals = strchr(typed, '=');
   char key[96];
   if (!equals || equals == typed)
@@ -307,13 +308,18 @@ gg_status gg_cli_options_set(const char *option, const char *typed, const char *
                          example);
   snprintf(key, sizeof key, "%.*s", (int)(equals - typed), typed);
   gg_error why;
-  if (set(target, key, equals + 1, &why) == GG_OK) return GG_OK;
-  return gg_cli_refuse(err, why.status, "--%s %.200s: %.800s", option, typed, why.message);
+  const gg_status status = vary    ? gg_sweep_vary(sweep, key, equals + 1, &why)
+                           : sweep ? gg_sweep_set(sweep, key, equals + 1, &why)
+                                   : gg_scene_set(scene, key, equals + 1, &why);
+  return status == GG_OK ? GG_OK : gg_cli_refuse(err, status, "--%s %.200s: %.800s", option, typed, why.message);
 }
 
-static gg_status set_scene(void *scene, const char *key, const char *value, gg_error *err)
+gg_status gg_cli_options_apply(const gg_options *o, gg_scene *scene, gg_sweep *sweep, gg_error *err)
 {
-  return gg_scene_set(scene, key, value, err);
+  gg_status status = GG_OK;
+  for (int i = 0; status == GG_OK && i < o->n_vary; i++) status = apply(true, o->vary[i], NULL, sweep, err);
+  for (int i = 0; status == GG_OK && i < o->n_overrides; i++) status = apply(false, o->override[i], scene, sweep, err);
+  return status;
 }
 
 gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
@@ -330,8 +336,7 @@ gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *
     fprintf(stderr, "warning: %s; the scene is that of %s\n", err->message, o->resume);
     status = GG_OK;
   }
-  for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
-    status = gg_cli_options_set("set", o->override[i], "collision.e=0.8", set_scene, *scene, err);
+  if (status == GG_OK) status = gg_cli_options_apply(o, *scene, NULL, err);
   if (status != GG_OK) gg_scene_free(*scene), *scene = NULL;
   return status;
 }
@@ -339,4 +344,11 @@ gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *
 const char *gg_cli_options_name(const gg_options *o)
 {
   return strcmp(o->input, "-") == 0 ? "standard input" : o->input;
+}
+
+int gg_cli_report_scene(const gg_options *o, gg_status status, const gg_error *err)
+{
+  return status == GG_OK          ? GG_OK
+         : status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(o), err)
+                                  : gg_cli_report(err);
 }

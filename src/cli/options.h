@@ -60,11 +60,11 @@ const char *gg_cli_options_name(const gg_options *options);
 
 /* Read the scene of the input and apply the overrides; NULL on failure. */
 gg_status gg_cli_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);
+/* Report the error of work on the scene unless the status is GG_OK; returns the exit code. */
+int gg_cli_report_scene(const gg_options *options, gg_status status, const gg_error *err);
 
-/* Apply a KEY=VALUE given after --OPTION; `example` is for the error message. */
-typedef gg_status gg_options_setter(void *target, const char *key, const char *value, gg_error *err);
-gg_status gg_cli_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
-                             void *target, gg_error *err);
+/* Apply --vary and the overrides to a sweep, or the overrides to a scene (sweep: NULL). */
+gg_status gg_cli_options_apply(const gg_options *options, gg_scene *scene, gg_sweep *sweep, gg_error *err);
 
 /* Scripts for the completion of shells, made by scripts/shell-completion of the tables that this program prints. */
 extern const char gg_cli_completion_bash[], gg_cli_completion_zsh[], gg_cli_completion_fish[];

@@ -22,9 +22,8 @@ char *gg_cli_path_with_suffix(const char *path, const char *suffix)
 char *gg_cli_path_of_checkpoint(const char *output)
 {
   char *path = NULL;
-  size_t length = strlen(output);
-  if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
-  return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
+  const int length = (int)strlen(output) - (gg_cli_has_ending(output, ".h5") ? 3 : 0);
+  return asprintf(&path, "%.*s.checkpoint.h5", length, output) < 0 ? NULL : path;
 }
 
 char *gg_cli_options_beside(const gg_options *o, const char *suffix)

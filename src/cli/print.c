@@ -241,6 +241,12 @@ gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...
   return err->status = status;
 }
 
+bool gg_cli_has_ending(const char *text, const char *ending)
+{
+  const size_t length = strlen(text), tail = strlen(ending);
+  return length > tail && strcmp(text + length - tail, ending) == 0;
+}
+
 void gg_cli_append(char *text, size_t size, const char *format, ...)
 {
   const size_t used = strlen(text);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas sweep: a run, a comparison or the theories at every point of a grid of scenes. */
+/* graingas sweep: a run, a comparison or the theories at every point of a grid of scenes. graingas validate: both
+ * engines and the theories against Enskog's equation, over a grid. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,16 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/processes.h"
-#include "cli/sweep_command.h"
+#include "cli/progress.h"
+
+typedef struct sweep_command {
+  const gg_options *options;
+  gg_sweep *sweep; /* checked */
+  char *folder;
+  gg_cli_line line;
+  bool over;   /* the final progress was shown */
+  bool tables; /* tables of the points follow */
+} sweep_command;
 
 enum { MOST_KEYS = 256 };
 
@@ -37,14 +47,14 @@ static widths measure(const gg_sweep *sweep)
 }
 
 /* Whether a point is done. Damaged points and points of other builds run again. */
-static bool is_done(const gg_cli_sweep_options *c, gg_point_state state)
+static bool is_done(const sweep_command *c, gg_point_state state)
 {
   return state == GG_POINT_DONE || state == GG_POINT_SHORT ||
          (state == GG_POINT_OTHER_BUILD && c->options->accept_version);
 }
 
 /* Print a point; returns its expected time, 0 if it is done. */
-static double print_point(const gg_cli_sweep_options *c, const widths *w, size_t i, gg_point_state state)
+static double print_point(const sweep_command *c, const widths *w, size_t i, gg_point_state state)
 {
   static const char *const states[] = {"", "done", "short", "another build", "damaged"};
   char time[24];
@@ -58,7 +68,7 @@ static double print_point(const gg_cli_sweep_options *c, const widths *w, size_t
 }
 
 /* --list: a line for each point, and the expected time of points that are not done. */
-int gg_cli_sweep_list(const gg_cli_sweep_options *c)
+static int list(const sweep_command *c)
 {
   size_t done = 0, again = 0, n = gg_sweep_points(c->sweep);
   double seconds = 0;
@@ -87,7 +97,7 @@ int gg_cli_sweep_list(const gg_cli_sweep_options *c)
 enum { MOST_TASKS = 1000 };
 
 /* Time limit of a task: the longest task at a quarter of the expected speed, in whole hours. */
-static long hours(const gg_cli_sweep_options *c, size_t tasks)
+static long hours(const sweep_command *c, size_t tasks)
 {
   double longest = 0;
   size_t n = gg_sweep_points(c->sweep);
@@ -102,7 +112,7 @@ static long hours(const gg_cli_sweep_options *c, size_t tasks)
 }
 
 /* --slurm: print an array script that distributes the points over tasks. */
-static int print_slurm(const gg_cli_sweep_options *c)
+static int print_slurm(const sweep_command *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
   long h = hours(c, tasks);
@@ -143,37 +153,25 @@ static void describe(const gg_sweep_progress *p, char *text, size_t size)
 static void show_progress(void *context, const gg_sweep_progress *p)
 {
   char line[240];
-  gg_cli_sweep_options *c = context;
+  sweep_command *c = context;
   describe(p, line, sizeof line);
   bool over = p->done + p->failed == p->points;
   gg_cli_line_show(&c->line, line, over && !c->over);
   c->over |= over;
 }
 
-static gg_status set(void *sweep, const char *key, const char *value, gg_error *err)
-{
-  return gg_sweep_set(sweep, key, value, err);
-}
-
-static gg_status vary(void *sweep, const char *key, const char *values, gg_error *err)
-{
-  return gg_sweep_vary(sweep, key, values, err);
-}
-
-gg_status gg_cli_sweep_read(const gg_options *o, const char *text, const char *name, gg_sweep **sweep, gg_error *err)
+/* Read the input, or without one the YAML `text` called `name`; apply --vary and overrides, and check it. */
+static gg_status read_sweep(const gg_options *o, const char *text, const char *name, gg_sweep **sweep, gg_error *err)
 {
   gg_status status = o->input ? gg_sweep_load(o->input, sweep, err) : gg_sweep_parse(text, name, sweep, err);
-  for (int i = 0; i < o->n_vary && status == GG_OK; i++)
-    status = gg_cli_options_set("vary", o->vary[i], "phi=0.1:0.5:0.1", vary, *sweep, err);
-  for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
-    status = gg_cli_options_set("set", o->override[i], "collision.e=0.8", set, *sweep, err);
+  if (status == GG_OK) status = gg_cli_options_apply(o, NULL, *sweep, err);
   if (status == GG_OK && o->does) status = gg_sweep_set(*sweep, "sweep.does", o->does, err);
   return status == GG_OK ? gg_sweep_check(*sweep, err) : status;
 }
 
 static void print_point_end(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
-  gg_cli_sweep_options *c = context;
+  sweep_command *c = context;
   if (status == GG_OK) return;
   gg_cli_line_clear(&c->line);
   fprintf(stderr, "point %zu", i + 1);
@@ -182,13 +180,13 @@ static void print_point_end(void *context, size_t i, gg_status status, const cha
   fprintf(stderr, ")%s: %s\n", file ? " ended short" : " failed", message);
 }
 
-void gg_cli_sweep_warn(void *context, const char *message)
+static void warn(void *context, const char *message)
 {
-  gg_cli_line_clear(&((gg_cli_sweep_options *)context)->line);
+  gg_cli_line_clear(&((sweep_command *)context)->line);
   fprintf(stderr, "warning: %s\n", message);
 }
 
-static int take_point(const gg_cli_sweep_options *c, size_t *i)
+static int take_point(const sweep_command *c, size_t *i)
 {
   char *end;
   size_t n = gg_sweep_points(c->sweep);
@@ -199,7 +197,8 @@ static int take_point(const gg_cli_sweep_options *c, size_t *i)
                      c->options->point, n);
 }
 
-int gg_cli_sweep_work(gg_cli_sweep_options *c)
+/* Run the missing points, or that of --point. */
+static int work(sweep_command *c)
 {
   gg_error err;
   size_t i = 0;
@@ -214,7 +213,7 @@ int gg_cli_sweep_work(gg_cli_sweep_options *c)
                                     .progress = show_progress,
                                     .stop = gg_cli_interrupted,
                                     .ended = print_point_end,
-                                    .warn = gg_cli_sweep_warn};
+                                    .warn = warn};
   int code = o->point ? take_point(c, &i) : GG_CLI_GO_ON;
   if (code != GG_CLI_GO_ON) return code;
   gg_cli_catch_interrupts();
@@ -229,9 +228,9 @@ int gg_cli_sweep_work(gg_cli_sweep_options *c)
 }
 
 /* Print the file name on standard output, for scripts. */
-void gg_cli_sweep_print_file(void *context, const char *file)
+static void print_file(void *context, const char *file)
 {
-  const gg_options *o = ((const gg_cli_sweep_options *)context)->options;
+  const gg_options *o = ((const sweep_command *)context)->options;
   if (!o->quiet && !o->json) gg_cli_print_name(stdout, "", file, "\n");
 }
 
@@ -242,7 +241,8 @@ static char *tables_of(const char *folder)
   return strcmp(name, ".") == 0 || strcmp(name, "..") == 0 ? realpath(folder, NULL) : strdup(folder);
 }
 
-int gg_cli_sweep_collect(gg_cli_sweep_options *c, const char *picture)
+/* Write the tables PREFIX.csv and PREFIX.h5, and a picture unless `picture` is "none". */
+static int collect(sweep_command *c, const char *picture)
 {
   gg_error err;
   const gg_options *o = c->options;
@@ -258,17 +258,17 @@ int gg_cli_sweep_collect(gg_cli_sweep_options *c, const char *picture)
                                       .threads = o->threads,
                                       .progress = show_progress,
                                       .stop = gg_cli_interrupted,
-                                      .warn = gg_cli_sweep_warn};
+                                      .warn = warn};
   GG_CLI_FREED char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
   gg_cli_catch_interrupts();
   gg_cli_line_start(&c->line, o->quiet);
-  gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, gg_cli_sweep_print_file, c, &err);
+  gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, print_file, c, &err);
   gg_cli_line_clear(&c->line);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
-static int print_json(const gg_cli_sweep_options *c)
+static int print_json(const sweep_command *c)
 {
   gg_error err;
   char *text = NULL;
@@ -308,7 +308,8 @@ static bool is_folder(const gg_options *o)
   return o->input && !o->output && stat(o->input, &about) == 0 && S_ISDIR(about.st_mode);
 }
 
-gg_status gg_cli_sweep_find_folder(gg_cli_sweep_options *c, const char *name, gg_error *err)
+/* Set the results folder: --output, by default the input's name, without an input `name`. */
+static gg_status find_folder(sweep_command *c, const char *name, gg_error *err)
 {
   const gg_options *o = c->options;
   const bool made = !is_folder(o) && (o->input || o->output);
@@ -319,7 +320,7 @@ gg_status gg_cli_sweep_find_folder(gg_cli_sweep_options *c, const char *name, gg
   return GG_OK;
 }
 
-static int sweep_points(gg_cli_sweep_options *c)
+static int sweep_points(sweep_command *c)
 {
   gg_error err;
   const gg_options *o = c->options;
@@ -327,20 +328,113 @@ static int sweep_points(gg_cli_sweep_options *c)
     return gg_cli_fail(GG_BAD_INPUT,
                        "%s: no key is varied; give e.g. vary: {phi: [0.1, 0.2]} there, or --vary phi=0.1,0.2",
                        gg_cli_options_name(o));
-  if (gg_cli_sweep_find_folder(c, NULL, &err) != GG_OK) return gg_cli_report(&err);
+  if (find_folder(c, NULL, &err) != GG_OK) return gg_cli_report(&err);
   if (o->slurm) return print_slurm(c);
-  if (o->list && !o->json) return gg_cli_sweep_list(c);
-  const int code = o->list ? GG_OK : o->collect ? gg_cli_sweep_collect(c, o->picture) : gg_cli_sweep_work(c);
+  if (o->list && !o->json) return list(c);
+  const int code = o->list ? GG_OK : o->collect ? collect(c, o->picture) : work(c);
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
 }
 
 int gg_cli_sweep_main(const gg_options *o)
 {
   gg_error err;
-  gg_cli_sweep_options c = {.options = o};
+  sweep_command c = {.options = o};
   int code = check_together(o);
-  if (code == GG_CLI_GO_ON && gg_cli_sweep_read(o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON && read_sweep(o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = sweep_points(&c);
+  gg_sweep_free(c.sweep);
+  free(c.folder);
+  return code;
+}
+
+/* graingas validate. */
+
+static void add_word(FILE *out, const char *option, const char *value)
+{
+  char *quoted = gg_cli_shell_quote(value);
+  if (quoted) fprintf(out, " %s%s%s", option, *option ? " " : "", quoted);
+  free(quoted);
+}
+
+/* The command that repeats a point with other random numbers in another folder, without its number; to be freed. */
+static char *command_to_repeat(const gg_options *o)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  fprintf(out, "graingas validate");
+  if (o->input) add_word(out, "", o->input);
+  if (o->quick && !o->input) fprintf(out, " --quick");
+  for (int i = 0; i < o->n_vary; i++) add_word(out, "--vary", o->vary[i]);
+  for (int i = 0; i < o->n_overrides; i++) add_word(out, "--set", o->override[i]);
+  fprintf(out, " --seed 2 --output again.sweep --point");
+  return fclose(out) == 0 ? text : (free(text), NULL);
+}
+
+static int judge(sweep_command *c)
+{
+  gg_error err;
+  char *verdict = NULL;
+  GG_CLI_FREED char *maps = gg_cli_path_with_suffix(c->folder, ".svg"), *repeat = command_to_repeat(c->options);
+  const gg_options *o = c->options;
+  const bool drawn = !o->point && !(o->picture && strcmp(o->picture, "none") == 0);
+  const gg_validate_options options = {.size = sizeof options,
+                                       .command = o->command_line,
+                                       .repeat = repeat,
+                                       .picture = !drawn       ? NULL
+                                                  : o->picture ? o->picture
+                                                               : maps,
+                                       .width = o->width,
+                                       .show = o->show,
+                                       .theories = o->mapped,
+                                       .page = o->page,
+                                       .json = o->json,
+                                       .warn = warn};
+  gg_status status = gg_sweep_validate(c->sweep, c->folder, &options, print_file, c, &verdict, &err);
+  if (verdict) {
+    if (!o->quiet && !o->point && !o->json) printf("\n");
+    gg_cli_print_text(verdict);
+  }
+  return status == GG_OK ? GG_OK : gg_cli_report(&err);
+}
+
+/* Run and validate. Failed and incomplete points are already reported; the verdict uses the others. */
+static int validate(sweep_command *c)
+{
+  c->tables = true;
+  const int code = work(c);
+  if (code != GG_OK && code != GG_FAILED) return code;
+  int tables = c->options->point ? GG_OK : collect(c, "none");
+  if (tables != GG_OK) return tables;
+  const int verdict = judge(c);
+  return verdict == GG_OK ? code : verdict;
+}
+
+static int check_validation(const gg_options *o)
+{
+  if (o->quick && o->input)
+    return gg_cli_fail(GG_BAD_INPUT, "option '--quick' is for the standard grid, without a file");
+  if (o->point && o->page) return gg_cli_fail(GG_BAD_INPUT, "options '--point' and '--page' do not go together");
+  if (o->json && o->list) return gg_cli_fail(GG_BAD_INPUT, "options '--list' and '--json' do not go together");
+  if (o->page && o->input && gg_cli_file_is_same(o->page, o->input))
+    return gg_cli_fail(GG_BAD_INPUT, "%s: would be overwritten by its own page; choose another --page", o->input);
+  if (o->point && o->list) return gg_cli_fail(GG_BAD_INPUT, "options '--list' and '--point' do not go together");
+  return GG_CLI_GO_ON;
+}
+
+int gg_cli_validate_main(const gg_options *given)
+{
+  gg_error err;
+  gg_options o = *given;
+  sweep_command c = {.options = &o};
+  int code = check_validation(&o);
+  if (!o.does) o.does = "compare";
+  if (code == GG_CLI_GO_ON &&
+      (read_sweep(&o, gg_standard_grid(o.quick), "the standard grid", &c.sweep, &err) != GG_OK ||
+       find_folder(&c, o.quick ? "grid_quick.sweep" : "grid.sweep", &err) != GG_OK))
+    code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON) code = o.list ? list(&c) : validate(&c);
   gg_sweep_free(c.sweep);
   free(c.folder);
   return code;

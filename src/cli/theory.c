@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/options.h"
 #include "cli/print.h"
 #include "cli/report.h"
-#include "cli/run_command.h"
 
 static gg_status print(const gg_options *o, const gg_comparison *c, gg_error *err)
 {

@@ -15,7 +15,6 @@
 #include "graingas.h"
 #include "io/checked_json.h"
 
-/* Numbers derived from all curves: exponents, coefficients; true if there are any (`out` may be NULL to ask). */
 static void put_numbers(gg_file_writer *out, const double *x, int n, const char *before)
 {
   for (int a = 0; a < n; a++) {
@@ -239,6 +238,7 @@ static bool put_numbers_of(gg_csv *csv, const char *whose, json_t *curves)
   return any;
 }
 
+/* Numbers derived from all curves: exponents, coefficients; true if there are any (`out` may be NULL to ask). */
 static bool put_curve_numbers(gg_file_writer *out, const gg_stored_result *stored)
 {
   static const char *const head[] = {"engine", "observable", "curve", "number", "mean", "stderr", "unit"};

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "common/thermostat.h"
+#include "graingas.h"
 #include "scene/fields.h"
 
 /* With `decimals` after the point; the error in units of the last digit where it has no point in it. */
@@ -20,8 +21,9 @@ static void put_estimate(double mean, double error, int decimals, char *text, si
     snprintf(text, size, "%.*f(%.0f)", decimals, mean, error * pow(10, decimals));
 }
 
-void gg_files_estimate_format(double mean, double error, char *text, size_t size)
+void gg_format_estimate(double mean, double error, char *text, size_t size)
 {
+  if (!text || !size) return;
   if (isnan(mean)) {
     snprintf(text, size, "-");
     return;
@@ -95,12 +97,6 @@ static void add_surface(const gg_scene *s, const char *varied, char *text, size_
   if (!smooth && frictional && !any_mu) add_pairs(text, size, s, "mu", GG_OF_MU, s->collision.mu);
 }
 
-static void add_injection(const gg_scene *s, char *text, size_t size)
-{
-  if (gg_scene_has_kicks(s)) gg_base_text_append(text, size, ", kicks");
-  if (gg_scene_has_torque(s)) gg_base_text_append(text, size, ", torque");
-}
-
 void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, size_t size)
 {
   if (!size) return;
@@ -110,7 +106,8 @@ void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, siz
   if (!has(varied, "phi")) gg_base_text_append(text, size, ", phi %g", s->phi);
   add_law(s, varied, text, size);
   add_surface(s, varied, text, size);
-  add_injection(s, text, size);
+  if (gg_scene_has_kicks(s)) gg_base_text_append(text, size, ", kicks");
+  if (gg_scene_has_torque(s)) gg_base_text_append(text, size, ", torque");
   if (has(varied, "species")) return;
   if (s->n_species > 2) gg_base_text_append(text, size, "; %d species", s->n_species);
   if (s->n_species == 2) {

@@ -127,11 +127,11 @@ static void warn_if_few(const gg_replicas *all, gg_result *result)
   const double bias = result->engine_state.particles_bias, asked = all->criteria.relative_error,
                most = gg_scene_ensemble_most_bias(all->model.flow);
   if (!(asked > 0 && bias > 1.001 * most * asked)) return;
-  gg_run_result_warn(result,
-                     "the ensemble of %lld grains biases means by up to %.2g %% (1/N), more than %s of the requested "
-                     "error: give dsmc.particles %.2g or more, or auto",
-                     (long long)all->model.n, 100 * bias, most < 0.5 ? "a quarter" : "half",
-                     bias / (most * asked) * (double)all->model.n);
+  GG_WARN(result,
+          "the ensemble of %lld grains biases means by up to %.2g %% (1/N), more than %s of the requested "
+          "error: give dsmc.particles %.2g or more, or auto",
+          (long long)all->model.n, 100 * bias, most < 0.5 ? "a quarter" : "half",
+          bias / (most * asked) * (double)all->model.n);
 }
 
 /* Below, means are those of so few grains, in either engine: T of a sheared gas of 5 is 17 % low. */
@@ -141,10 +141,9 @@ static void warn_if_very_few(const gg_replicas *all, gg_result *result)
 {
   const gg_model *m = &all->model;
   if (m->n >= FEW_GRAINS || (m->ensemble && all->criteria.relative_error > 0)) return; /* warn_if_few has it */
-  gg_run_result_warn(result,
-                     "%lld grains are few: means may lie up to %.2g %% off those of many (1/N); give %s %d or more",
-                     (long long)m->n, 100 * gg_common_finite_size_bias_of(m),
-                     m->ensemble ? "dsmc.particles" : "particles", FEW_GRAINS);
+  GG_WARN(result, "%lld grains are few: means may lie up to %.2g %% off those of many (1/N); give %s %d or more",
+          (long long)m->n, 100 * gg_common_finite_size_bias_of(m), m->ensemble ? "dsmc.particles" : "particles",
+          FEW_GRAINS);
 }
 
 /* Freezing and melting fractions of hard spheres: Hoover & Ree, J. Chem. Phys. 49 (1968) 3609. md starts from random
@@ -156,10 +155,10 @@ static void warn_if_undercooled(gg_result *result)
   const gg_model *m = &result->model;
   const bool alike = gg_common_model_widest(m) == gg_common_model_narrowest(m);
   if (m->homogeneous || m->walled || gg_model_is_sheared(m) || !alike || !(m->phi > FREEZING)) return;
-  gg_run_result_warn(result,
-                     "phi %.3g is above freezing (%.3g), where spheres of one diameter would crystallise; the run "
-                     "starts from random places, and its means are those of the metastable fluid",
-                     m->phi, FREEZING);
+  GG_WARN(result,
+          "phi %.3g is above freezing (%.3g), where spheres of one diameter would crystallise; the run "
+          "starts from random places, and its means are those of the metastable fluid",
+          m->phi, FREEZING);
 }
 
 /* Work and noise less drag, loss and growth, measured apart, cancel but for errors. The splitting of steps and kicks
@@ -172,7 +171,7 @@ static void warn_if_unbalanced(gg_result *result)
   const gg_estimate *e = &result->value[GG_Q_ENERGY_BALANCE];
   const double off = fabs(e->mean - 1);
   if (!(off > LEAST_IMBALANCE && off > MOST_ERRORS * e->error)) return;
-  gg_run_result_warn(
+  GG_WARN(
       result,
       "energy is not balanced: energy_balance is %.4g +- %.2g where it must be 1, %.1f errors off; means are biased%s",
       e->mean, e->error, off / e->error,
@@ -186,7 +185,7 @@ static void warn_if_structured(gg_result *result)
 {
   char what[240];
   if (gg_run_structure(result, what, sizeof what)) {
-    gg_run_result_warn(result, "%s; means are those of this state", what);
+    GG_WARN(result, "%s; means are those of this state", what);
     return;
   }
   const bool at_one_instant = gg_scene_is_followed(result->scene);
@@ -196,10 +195,10 @@ static void warn_if_structured(gg_result *result)
     const gg_estimate *e = &result->value[q];
     if (q == GG_Q_N2 && gg_common_model_is_turned(&result->model)) continue; /* z is a direction of its own */
     if (!(fabs(e->mean) > 0.02 && fabs(e->mean) > 5 * e->error)) continue;
-    gg_run_result_warn(result,
-                       "the gas is not homogeneous: %s = %.3g +- %.2g where it should vanish (vortices or clusters; a "
-                       "smaller box or shorter run stays homogeneous)",
-                       gg_common_quantity_name(q), e->mean, e->error);
+    GG_WARN(result,
+            "the gas is not homogeneous: %s = %.3g +- %.2g where it should vanish (vortices or clusters; a "
+            "smaller box or shorter run stays homogeneous)",
+            gg_common_quantity_name(q), e->mean, e->error);
     return;
   }
 }
@@ -212,10 +211,10 @@ static void warn_if_narrow(gg_result *result)
   const gg_model *m = &result->model;
   double narrowest = fmin(m->box[0], fmin(m->box[1], m->box[2])), widest = gg_common_model_widest(m);
   if (m->ensemble || narrowest >= NARROW_BOX * widest) return;
-  gg_run_result_warn(result,
-                     "the box is %.3g diameters wide: its grains meet the same few again and again, and means are "
-                     "those of so small a box; give particles a larger value",
-                     narrowest / widest);
+  GG_WARN(result,
+          "the box is %.3g diameters wide: its grains meet the same few again and again, and means are "
+          "those of so small a box; give particles a larger value",
+          narrowest / widest);
 }
 
 /* If every contact slides, the force along a wall is mu times the force across it, whatever the gas does: a flow that
@@ -228,13 +227,12 @@ static void warn_if_walls_slip(gg_result *result)
   const double mu = m->n_surfaces ? m->surface[0].contact[0].mu : INFINITY,
                ratio = result->value[GG_Q_WALL_FRICTION].mean;
   if (!m->walled || !(mu > 0 && isfinite(mu)) || !(ratio > ALL_SLIDE * mu)) return;
-  gg_run_result_warn(
-      result,
-      "%s: friction is at its limit in nearly all contacts (force along over force across %.3g, walls.mu %.3g)%s",
-      m->n_surfaces > 1 ? "both walls slip" : "the wall slips", ratio, mu,
-      result->steadiness == GG_STEADY
-          ? ""
-          : "; a flow that loses more energy than walls bring in so dies: give walls.mu a larger value");
+  GG_WARN(result,
+          "%s: friction is at its limit in nearly all contacts (force along over force across %.3g, walls.mu %.3g)%s",
+          m->n_surfaces > 1 ? "both walls slip" : "the wall slips", ratio, mu,
+          result->steadiness == GG_STEADY
+              ? ""
+              : "; a flow that loses more energy than walls bring in so dies: give walls.mu a larger value");
 }
 
 /* Noise of mean densities and dense layers at walls exceed the limit in a smaller fraction. */
@@ -244,47 +242,45 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
 {
   const gg_engine_state *s = &result->engine_state;
   if (all->model.law.e && gg_scene_is_given(&all->scene, "collision.e"))
-    gg_run_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
+    GG_WARN(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
-    gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
+    GG_WARN(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
   if (s->clamped)
-    gg_run_result_warn(result,
-                       "%s '%s' has no allowed value at the speeds of %llu collisions (%.2g %%), which took the "
-                       "nearest allowed one (NaN: the least)",
-                       all->model.law.e ? GG_OWN_LAW : "the formula", all->model.law.name,
-                       (unsigned long long)s->clamped, 100 * (double)s->clamped / (double)s->collisions);
+    GG_WARN(result,
+            "%s '%s' has no allowed value at the speeds of %llu collisions (%.2g %%), which took the "
+            "nearest allowed one (NaN: the least)",
+            all->model.law.e ? GG_OWN_LAW : "the formula", all->model.law.name, (unsigned long long)s->clamped,
+            100 * (double)s->clamped / (double)s->collisions);
   if (!gg_run_is_steady(result->steadiness) && !gg_scene_is_followed(&all->scene))
-    gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
+    GG_WARN(result, "not a steady mean: %s", result->steadiness_text);
   if (gg_run_is_steady(result->steadiness) && !c->trusted)
-    gg_run_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
-                       GG_MIN_BLOCKS);
+    GG_WARN(result, "some headline errors rest on fewer than %d blocks of five correlation times", GG_MIN_BLOCKS);
   if (all->scene.fixed.contact_time != GG_AUTO)
-    gg_run_result_warn(result,
-                       "md.contact_time: auto is %g here, since collisions accumulate without end at %g; grains in "
-                       "lasting contact lose less energy: see how means change from one to the other",
-                       all->scene.fixed.contact_time, all->scene.fixed.contact_time / 10);
+    GG_WARN(result,
+            "md.contact_time: auto is %g here, since collisions accumulate without end at %g; grains in "
+            "lasting contact lose less energy: see how means change from one to the other",
+            all->scene.fixed.contact_time, all->scene.fixed.contact_time / 10);
   if ((double)s->treated > 1e-4 * (double)s->collisions)
-    gg_run_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
-                       100 * (double)s->treated / (double)s->collisions);
+    GG_WARN(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
+            100 * (double)s->treated / (double)s->collisions);
   if (s->wall_treated > s->collisions / 100)
-    gg_run_result_warn(result, "%.3g contacts with walls %s: grains rest on a wall", (double)s->wall_treated,
-                       all->model.ensemble ? "would have left a grain at rest, which bounced for 1/64 of a step instead"
-                                           : "fell under the contact-time rule");
+    GG_WARN(result, "%.3g contacts with walls %s: grains rest on a wall", (double)s->wall_treated,
+            all->model.ensemble ? "would have left a grain at rest, which bounced for 1/64 of a step instead"
+                                : "fell under the contact-time rule");
   if (s->overfilled > MOST_OVERFILLED)
-    gg_run_result_warn(result,
-                       "%.2g %% of grains are where they would fill more than 0.63 of space: Enskog's theory has no "
-                       "packed beds, and Monte Carlo packs grains beyond what fits; use engine: md",
-                       100 * s->overfilled);
+    GG_WARN(result,
+            "%.2g %% of grains are where they would fill more than 0.63 of space: Enskog's theory has no "
+            "packed beds, and Monte Carlo packs grains beyond what fits; use engine: md",
+            100 * s->overfilled);
   warn_if_structured(result);
   warn_if_narrow(result);
   warn_if_walls_slip(result);
   if (s->overflows > 1e-3 * (double)s->collisions)
-    gg_run_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
-                       100 * (double)s->overflows / (double)s->collisions);
+    GG_WARN(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
+            100 * (double)s->overflows / (double)s->collisions);
   if (all->criteria.relative_error > 0 && s->time_step_bias > all->criteria.relative_error / 5)
-    gg_run_result_warn(
-        result, "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the requested error",
-        100 * s->time_step_bias);
+    GG_WARN(result, "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the requested error",
+            100 * s->time_step_bias);
   warn_if_few(all, result);
   warn_if_very_few(all, result);
   warn_if_undercooled(result);
@@ -302,10 +298,10 @@ static void warn_of_short_blocks(gg_result *result, int from, const char *name)
     if (c->block_correlation > STRONG && (!worst || c->block_correlation > worst->block_correlation)) worst = c;
   }
   if (worst)
-    gg_run_result_warn(result,
-                       "%s: blocks of samples are no longer than a correlation time (neighbours' correlation %.2f, "
-                       "%s): its errors are rough; average longer",
-                       name, worst->block_correlation, worst->name);
+    GG_WARN(result,
+            "%s: blocks of samples are no longer than a correlation time (neighbours' correlation %.2f, "
+            "%s): its errors are rough; average longer",
+            name, worst->block_correlation, worst->name);
 }
 
 /* Folded profiles hide a dense core that stays on one side. Warn if the mean position of the centre of mass is off the
@@ -319,10 +315,10 @@ static void warn_of_one_side(const gg_slow_modes *w, gg_result *result)
   if (!(w->aside_share > ASIDE_SHARE && fabs(w->aside) > ASIDE_OF_GAP * result->model.box[1])) return;
   for (int i = 0; i < result->curves.n; i++) {
     if (!result->curves.curve[i].folded) continue;
-    gg_run_result_warn(result,
-                       "profiles are means of the flow and its mirror image, but the flow kept to one side: the centre "
-                       "of mass was %.2g d from the middle of the gap on average, %.2g d at root mean square",
-                       w->aside, fabs(w->aside) / sqrt(w->aside_share));
+    GG_WARN(result,
+            "profiles are means of the flow and its mirror image, but the flow kept to one side: the centre "
+            "of mass was %.2g d from the middle of the gap on average, %.2g d at root mean square",
+            w->aside, fabs(w->aside) / sqrt(w->aside_share));
     return;
   }
 }
@@ -339,21 +335,21 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
       gg_measure_curves_estimate(bins, (size_t)all->n, o->curves->of_bins, first->sampler.self[k], o->name,
                                  memory / fmax(first->sampler.every[k], 1), &result->curves, err);
   if (status == GG_OK && !bins[0]->whole && (size_t)all->n * bins[0]->blocks < GG_MIN_BLOCKS)
-    gg_run_result_warn(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
-                       (size_t)all->n * bins[0]->blocks, GG_MIN_BLOCKS);
+    GG_WARN(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
+            (size_t)all->n * bins[0]->blocks, GG_MIN_BLOCKS);
   warn_of_short_blocks(result, before, o->name);
   return status;
 }
 
-static void warn_of_unmeasured(void *result, const char *text)
+static void warn_of_unmeasured(void *warnings, const char *text)
 {
-  gg_run_result_warn(result, "%s", text);
+  gg_base_string_list_add(warnings, "%s", text);
 }
 
 static gg_status report_curves(const gg_replicas *all, const gg_slow_modes *slow, gg_result *result, gg_error *err)
 {
   result->curves = (gg_curves){.model = &result->model};
-  GG_TRY(gg_run_unmeasured(&all->scene, &all->model, warn_of_unmeasured, result, err));
+  GG_TRY(gg_run_unmeasured(&all->scene, &all->model, warn_of_unmeasured, &result->warnings, err));
   for (int k = 0; k < all->replica[0].sampler.n_observables; k++)
     if (all->replica[0].sampler.observable[k]->curves) GG_TRY(report_one(all, k, slow->mean_time, result, err));
   warn_of_one_side(slow, result);

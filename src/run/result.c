@@ -1,23 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "run/result.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "graingas.h"
 #include "scene/scene.h"
-
-void gg_run_result_warn(gg_result *result, const char *format, ...)
-{
-  char *text = NULL;
-  va_list args;
-  va_start(args, format);
-  if (vasprintf(&text, format, args) < 0) text = NULL;
-  va_end(args);
-  gg_base_string_list_take(&result->warnings, text);
-}
 
 bool gg_run_quantity_counts_in_collisions(const gg_model *m)
 {
@@ -70,10 +59,10 @@ void gg_run_result_label(gg_result *r)
 
 void gg_run_result_freed(gg_result **result)
 {
-  gg_run_result_free(*result);
+  gg_result_free(*result);
 }
 
-void gg_run_result_free(gg_result *result)
+void gg_result_free(gg_result *result)
 {
   if (!result) return;
   free(result->correlations.coefficient);
@@ -82,7 +71,7 @@ void gg_run_result_free(gg_result *result)
   gg_measure_curves_clear(&result->curves);
   gg_measure_frame_free(&result->final);
   gg_base_string_list_clear(&result->warnings);
-  gg_scene_release(result->scene);
+  gg_scene_free(result->scene);
   gg_common_extension_release(result->own);
   char *const texts[] = {result->origin.version, result->origin.command, result->origin.machine, result->origin.date,
                          result->origin.document};

@@ -13,8 +13,7 @@
 typedef struct gg_result gg_result; /* the handle of the public header */
 typedef struct gg_scene gg_scene;
 
-void gg_run_result_free(gg_result *result);
-void gg_run_result_freed(gg_result **result); /* for GG_CLEARED */
+void gg_run_result_freed(gg_result **result); /* gg_result_free for GG_CLEARED */
 
 typedef struct gg_estimate {
   double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */
@@ -114,7 +113,7 @@ struct gg_result {
   gg_extension *own; /* names of what that file's program had brought; else NULL */
 };
 
-void gg_run_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2, 3);
+#define GG_WARN(result, ...) gg_base_string_list_add(&(result)->warnings, __VA_ARGS__)
 
 /* Fill rows and correlation_time_unit, by the model. */
 void gg_run_result_label(gg_result *result);

@@ -36,9 +36,8 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
   GG_TRY(gg_run_replicas_report(all, result, err)); /* out of memory: half a result is none */
   GG_HAND_OVER(out, result);
   if (has_other_numerics(&all->scene))
-    gg_run_result_warn(
-        *out, "continued to another relative error: the ensemble and the time step are those chosen for %.3g %%",
-        100 * gg_scene_ensemble_size_error(&all->scene));
+    GG_WARN(*out, "continued to another relative error: the ensemble and the time step are those chosen for %.3g %%",
+            100 * gg_scene_ensemble_size_error(&all->scene));
   return gg_run_replicas_check_end(all, err);
 }
 
@@ -50,7 +49,7 @@ static gg_status run_replicas(gg_replicas *all, gg_result **out, gg_error *err)
   if (ended && status == GG_INTERRUPTED && gg_run_replicas_store(all, err) != GG_OK) status = GG_BAD_FILE;
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
   if (cut_short) report(all, out, NULL);
-  if (status == GG_INTERRUPTED && *out) gg_run_result_warn(*out, "interrupted: these are the results so far");
+  if (status == GG_INTERRUPTED && *out) GG_WARN(*out, "interrupted: these are the results so far");
   return status;
 }
 
@@ -76,7 +75,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   free(all);
   if (!created) return gg_base_memory_check(before, status, err);
   if (gg_base_memory_failures() == before || status != GG_OK) return status;
-  gg_run_result_free(*out); /* it lacks a warning, or worse */
+  gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
   return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_common_engine_of(scene->engine)->name);
 }
@@ -361,9 +360,9 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
 
 void gg_run_comparison_clear(gg_comparison *c)
 {
-  for (int k = 0; k < GG_N_ENGINES; k++) gg_run_result_free(c->by_engine[k]);
+  for (int k = 0; k < GG_N_ENGINES; k++) gg_result_free(c->by_engine[k]);
   for (int i = 0; i < c->n_theories; i++) gg_measure_curves_clear(&c->theory[i].curves);
-  gg_scene_release(c->scene);
+  gg_scene_free(c->scene);
   gg_common_extension_release(c->own);
   free(c->document);
   gg_base_string_list_clear(&c->warnings);

@@ -7,11 +7,9 @@
 
 #include "base/memory.h"
 #include "common/engine_grains.h"
-#include "run/oscillation.h"
 #include "run/protocol_times.h"
 #include "run/series_means.h"
 #include "scene/fields.h"
-#include "theory/relaxation.h"
 
 static double itself(const double *value, const gg_model *m)
 {
@@ -176,8 +174,8 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
   if (!theory) return GG_FAILED;
   const size_t changed = last_change(all);
   if (gg_flow_is_sheared(all->scene.flow) && (gg_scene_shear_steps(&all->scene) > 0 || all->scene.shear.rate <= 0))
-    gg_run_result_warn(result, "gamma in the units of results is the largest absolute shear rate%s, %g",
-                       all->scene.shear.rate < 0 ? " at the start" : "", gg_scene_unit_rate(&all->scene));
+    GG_WARN(result, "gamma in the units of results is the largest absolute shear rate%s, %g",
+            all->scene.shear.rate < 0 ? " at the start" : "", gg_scene_unit_rate(&all->scene));
   gg_status status = known ? integrate(all, theory, err) : GG_OK;
   list->group = "relaxation";
   for (int i = 0; i < result->rows.n; i++) {

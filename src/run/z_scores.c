@@ -60,14 +60,10 @@ bool gg_run_enskog_deviation(const gg_comparison *c, gg_engine_kind kind, gg_qua
   return true;
 }
 
-static bool is_difference(gg_quantity q)
-{
-  return gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
-}
-
 bool gg_run_is_beyond(const gg_model *m, gg_quantity q, const gg_estimate *mean, const gg_estimate *reference)
 {
-  const double difference = fabs(mean->mean - reference->mean), scale = is_difference(q) ? 1 : fabs(reference->mean),
+  const double difference = fabs(mean->mean - reference->mean),
+               scale = gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE ? 1 : fabs(reference->mean),
                error = hypot(isfinite(mean->error) ? mean->error : 0, reference->error);
   return difference > 4 * error && difference > gg_theory_expected_deviation(m, q) * scale;
 }

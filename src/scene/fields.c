@@ -13,6 +13,7 @@
 #include "common/collision.h"
 #include "common/quantity.h"
 #include "common/thermostat.h"
+#include "graingas.h"
 
 const gg_field_kind gg_scene_kinds[] = {
     [GG_FIELD_NUMBER] = {"number", GG_ITEM_F64, 1, "a number"},
@@ -350,7 +351,7 @@ gg_scene *gg_scene_copy_new(const gg_scene *scene, gg_error *err)
   return copy;
 }
 
-void gg_scene_release(gg_scene *scene)
+void gg_scene_free(gg_scene *scene)
 {
   if (scene) gg_common_extension_release(scene->extension);
   free(scene);

@@ -204,8 +204,7 @@ static inline double gg_scene_wave(const gg_scene *scene)
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */
 gg_scene gg_scene_defaults(void);
 
-/* A copy on the heap that holds the extension, until it is released; NULL: out of memory. */
+/* A copy on the heap that holds the extension, until gg_scene_free; NULL: out of memory. */
 gg_scene *gg_scene_copy_new(const gg_scene *scene, gg_error *err);
-void gg_scene_release(gg_scene *scene);
 
 #endif

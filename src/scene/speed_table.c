@@ -2,10 +2,8 @@
 /* Coefficients of contacts as tables of the normal speed, in the form of common/laws/speed_laws.h. */
 #include <ctype.h>
 #include <errno.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "scene/scene_reader.h"
@@ -37,13 +35,7 @@ static gg_status read_rows(FILE *in, const char *path, char text[GG_LAWS_TEXT], 
 gg_status gg_scene_speed_table_read(const char *file, const char *beside, char text[GG_LAWS_TEXT], gg_error *err)
 {
   char path[PATH_MAX];
-  struct stat about;
-  const char *slash = beside && *file != '/' ? strrchr(beside, '/') : NULL;
-  const int folder = slash ? (int)(slash - beside) + 1 : 0;
-  if (snprintf(path, sizeof path, "%.*s%s", folder, folder ? beside : "", file) >= (int)sizeof path)
-    return gg_base_fail(err, GG_BAD_FILE, "the path of the table is too long");
-  if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block the reader */
-    return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
+  GG_TRY(gg_scene_file_beside(file, beside, path, err));
   GG_CLOSED FILE *in = fopen(path, "r");
   return in ? read_rows(in, path, text, err)
             : gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));

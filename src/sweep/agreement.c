@@ -54,19 +54,14 @@ static void count_points(gg_agreement *a, const gg_grid_view *v)
   }
 }
 
-/* Points are independent of each other, quantities of one point are not. */
-static void judge(gg_agreement *a)
-{
-  a->most = gg_statistics_scores_most(GG_AGREEMENT_CHANCE, a->n_values);
-  for (int i = 0; i < a->n; i++)
-    a->fails |= gg_statistics_scores_judge(&a->row[i].scores, GG_AGREEMENT_CHANCE, a->n, a->most);
-}
-
 void gg_sweep_agreement_make(gg_agreement *a, const gg_grid_view *v)
 {
   *a = (gg_agreement){0};
   for (size_t i = 0; i < v->table->n; i++)
     if (gg_sweep_agreement_counts(&v->table->row[i])) add(a, &v->table->row[i]);
   count_points(a, v);
-  judge(a);
+  /* Points are independent of each other, quantities of one point are not. */
+  a->most = gg_statistics_scores_most(GG_AGREEMENT_CHANCE, a->n_values);
+  for (int i = 0; i < a->n; i++)
+    a->fails |= gg_statistics_scores_judge(&a->row[i].scores, GG_AGREEMENT_CHANCE, a->n, a->most);
 }

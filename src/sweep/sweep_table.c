@@ -23,7 +23,6 @@
 #include "run/result.h"
 #include "scene/model_of_scene.h"
 #include "sweep/folder.h"
-#include "sweep/point_deviations.h"
 #include "theory/theory.h"
 
 void gg_sweep_point_table_clear(gg_point_table *t)
@@ -196,6 +195,16 @@ gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, co
   if (!t->n_documents)
     return gg_base_fail(err, GG_FAILED, "%s: none of the sweep's %zu points is there", folder, sweep->n);
   return GG_OK;
+}
+
+void gg_sweep_point_table_warn(const gg_point_table *t, const char *more,
+                               void (*warn)(void *context, const char *message), void *context)
+{
+  char text[200];
+  if (!t->n_other_builds || !warn) return;
+  snprintf(text, sizeof text, "%zu of %zu points are by another build of graingas, whose numbers may differ%s",
+           t->n_other_builds, t->n_documents, more);
+  warn(context, text);
 }
 
 /* Columns after those of the point and its keys. Whole numbers and truths have a value in every row, so that readers
@@ -391,7 +400,7 @@ gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep 
   GG_FREED uint8_t *truth = gg_base_array_new(t->n, sizeof *truth, err);
   GG_FREED const char **text = gg_base_array_new(t->n, sizeof *text, err);
   if (!number || !whole || !truth || !text) return GG_FAILED;
-  gg_h5_create_in_memory(&h);
+  gg_h5_create(&h, NULL);
   gg_h5_group(&h, "/graingas/table");
   gg_h5_text(&h, "/graingas/version", gg_base_build_version);
   gg_h5_text(&h, "/graingas/command", command);

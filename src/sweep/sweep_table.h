@@ -45,6 +45,9 @@ typedef struct gg_point_table {
 gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep, const char *folder,
                                     const gg_stop *stop, gg_error *err);
 void gg_sweep_point_table_clear(gg_point_table *table);
+/* Warn of points by other builds, if there are any; `more` ends the sentence. */
+void gg_sweep_point_table_warn(const gg_point_table *table, const char *more,
+                               void (*warn)(void *context, const char *message), void *context);
 /* True if the table has a row of the method and the quantity (NULL: any). */
 bool gg_sweep_point_table_has(const gg_point_table *table, const char *method, const char *quantity);
 /* Take the next word of a list with commas (NULL: empty); false at its end. */
@@ -58,6 +61,10 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *table, const gg_s
                                          gg_error *err);
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *table, const gg_sweep *sweep, const char *path,
                                         const char *command, gg_error *err);
+
+/* point_deviations.c: deviations of the rows of a point, from `first` on, from their reference: Enskog's noise-free
+ * solution, else dsmc. `scene` is the YAML beside the document. NaN and NULL without a reference. */
+gg_status gg_sweep_point_deviations(gg_point_table *table, size_t first, json_t *document, char *scene, gg_error *err);
 
 /* The key along x, by its place among the varied keys. */
 typedef struct gg_picture_axis {

@@ -13,4 +13,7 @@ gg_status gg_sweep_validate_table(const gg_point_table *table, const gg_sweep *s
                                   const gg_validate_options *options, void (*written)(void *context, const char *file),
                                   void *context, const gg_stop *stop, char **text, gg_error *err);
 
+/* The grids of `graingas validate` without a file: validation/grid/grid.yaml and grid_quick.yaml. */
+extern const char gg_sweep_standard_grid[], gg_sweep_quick_grid[];
+
 #endif

@@ -59,7 +59,7 @@ static inline gg_result *planted_result(gg_engine_kind engine)
   r->final = planted_frame(100, engine == GG_MD);
   r->averaging = (gg_effort){12000000, 7.9, NAN};
   r->total = (gg_effort){13000000, 8.9, 9.1};
-  gg_run_result_warn(r, "planted warning");
+  GG_WARN(r, "planted warning");
   return r;
 }
 

@@ -14,11 +14,11 @@
 
 #include "base/build.h"
 #include "files/h5/checkpoint_file.h"
-#include "scene/scene.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_reader.h"
 #include "own_folder.h"
+#include "scene/scene.h"
 
 static gg_archive archive(double first)
 {
@@ -78,8 +78,8 @@ static void checkpoint_generations(void **state)
   bool older;
   gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), two = archive(2), back = {0};
-  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
-  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &two, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, true, &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, true, &two, &scene, &err), GG_OK);
   assert_int_equal(gg_files_checkpoint_read("c.h5", false, &back, &older, &err), GG_OK);
   assert_false(older);
   assert_same(&two, &back);
@@ -113,7 +113,7 @@ static void checkpoint_of_another_build(void **state)
   bool older;
   gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), back = {0};
-  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, true, &one, &scene, &err), GG_OK);
   flip_bit("c.h5", gg_base_build_identity, strlen(gg_base_build_identity));
   seal_anew("c.h5");
   char other[40], expected[400];
@@ -147,7 +147,7 @@ static void checkpoint_of_another_layout(void **state)
     char expected[400];
     gg_scene scene = gg_scene_defaults();
     gg_archive one = archive(1), back = {0};
-    assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+    assert_int_equal(gg_files_checkpoint_write("c.h5", false, true, &one, &scene, &err), GG_OK);
     unsigned char seal[GG_TRAILER_SIZE]; /* HDF5 cuts it off */
     hid_t file = H5Fopen("c.h5", H5F_ACC_RDWR, H5P_DEFAULT),
           version = H5Dopen(file, "/checkpoint/version", H5P_DEFAULT);
@@ -186,13 +186,13 @@ static void checkpoint_without_room(void **state)
   bool older;
   gg_scene scene = gg_scene_defaults();
   gg_archive one = archive(1), back = {0};
-  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &one, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, true, &one, &scene, &err), GG_OK);
   struct rlimit whole, small;
   getrlimit(RLIMIT_FSIZE, &whole);
   small = whole;
   small.rlim_cur = 100;
   setrlimit(RLIMIT_FSIZE, &small);
-  gg_status status = gg_files_checkpoint_write("c.h5", false, &one, &scene, &err);
+  gg_status status = gg_files_checkpoint_write("c.h5", false, true, &one, &scene, &err);
   setrlimit(RLIMIT_FSIZE, &whole);
   assert_int_equal(status, GG_BAD_FILE);
   assert_int_equal(gg_files_checkpoint_read("c.h5", false, &back, &older, &err), GG_OK);

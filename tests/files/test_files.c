@@ -239,7 +239,7 @@ static void unreadable_results(void **state)
   assert_non_null(strstr(err.message, "rubbish.h5: cannot be read: it is not an HDF5 file"));
   gg_archive a = {0};
   gg_scene scene = gg_scene_defaults();
-  assert_int_equal(gg_files_checkpoint_write("c.h5", false, &a, &scene, &err), GG_OK);
+  assert_int_equal(gg_files_checkpoint_write("c.h5", false, true, &a, &scene, &err), GG_OK);
   assert_int_equal(gg_files_stored_result_read(&s, "c.h5", &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "it is a checkpoint"));
   remove_all();

@@ -33,7 +33,7 @@ static void write_texts(gg_h5 *h)
 }
 static void write_number(gg_h5 *h)
 {
-  gg_h5_number_of_unit(h, "/a/number", 1, "d");
+  gg_h5_number(h, "/a/number", 1, "d");
 }
 static void write_count(gg_h5 *h)
 {
@@ -113,7 +113,7 @@ static void (*const calls[])(gg_h5 *) = {write_text,
 static void begin(gg_h5 *h)
 {
   gg_h5_create_in_memory(h);
-  gg_h5_number(h, "/there", 1);
+  gg_h5_number(h, "/there", 1, NULL);
   gg_h5_rows_create(h, &rows, "/rows", H5T_NATIVE_DOUBLE, 2, two_by_two);
   gg_h5_rows_append(h, &rows, numbers);
   assert_false(h->failed);

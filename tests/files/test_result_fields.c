@@ -379,7 +379,7 @@ static gg_result *plant(gg_engine_kind engine, gg_steadiness steadiness)
   FILL(&r->total, total_fields, 0);
   FILL(&r->engine_state, state_fields, 0);
   r->engine_state.collisions = r->total.collisions;
-  for (int i = 0; i < 3; i++) gg_run_result_warn(r, "warning %d", i);
+  for (int i = 0; i < 3; i++) GG_WARN(r, "warning %d", i);
   return r;
 }
 

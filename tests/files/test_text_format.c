@@ -7,12 +7,12 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "files/text_format.h"
+#include <graingas.h>
 
 static void assert_estimate(double mean, double error, const char *expected)
 {
   char text[64];
-  gg_files_estimate_format(mean, error, text, sizeof text);
+  gg_format_estimate(mean, error, text, sizeof text);
   assert_string_equal(text, expected);
 }
 

@@ -38,7 +38,7 @@ static fuzz_image make(size_t which)
   snprintf(path, sizeof path, "/tmp/graingas-fuzz-%ld.h5", (long)getpid());
   if (gg_base_archive_append(&small, &base->archive, NULL) != GG_OK) abort();
   cut(&small);
-  gg_files_checkpoint_write(path, false, &small, &base->scene, NULL);
+  gg_files_checkpoint_write(path, false, true, &small, &base->scene, NULL);
   gg_base_archive_clear(&small);
   return fuzz_image_of(path);
 }

@@ -79,7 +79,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   gg_frame_log opened;
   place p = {.model = &models[data[0] % FUZZ_BASES]};
   if (gg_files_frame_log_open_at(&opened, path, &mark, NULL, NULL) != GG_OK) return 0;
-  gg_h5_create_in_memory(&p.h);
+  gg_h5_create(&p.h, NULL);
   gg_files_frame_log_replay(&opened, take, &p, NULL);
   gg_h5_particles_close(&p.h, &p.particles);
   gg_h5_close(&p.h);

@@ -15,25 +15,17 @@
 #include "io/atomic_file.h"
 #include "scene/fields.h"
 
-static const struct {
-  const char *name;
-} item_types[] = {[GG_ITEM_F64] = {"f64"},
-                  [GG_ITEM_I64] = {"i64"},
-                  [GG_ITEM_U64] = {"u64"},
-                  [GG_ITEM_U8] = {"u8"},
-                  [GG_ITEM_F32] = {"f32"}};
+static const char *const item_types[] = {
+    [GG_ITEM_F64] = "f64", [GG_ITEM_I64] = "i64", [GG_ITEM_U64] = "u64", [GG_ITEM_U8] = "u8", [GG_ITEM_F32] = "f32"};
 
 static hid_t type_of(gg_item_type type)
 {
-  switch (type) {
-  case GG_ITEM_F64: return H5T_NATIVE_DOUBLE;
-  case GG_ITEM_I64: return H5T_NATIVE_INT64;
-  case GG_ITEM_U64: return H5T_NATIVE_UINT64;
-  case GG_ITEM_F32: return H5T_NATIVE_FLOAT;
-  case GG_ITEM_U8:
-  case GG_ITEM_TYPES: break;
-  }
-  return H5T_NATIVE_UINT8;
+  const hid_t types[] = {[GG_ITEM_F64] = H5T_NATIVE_DOUBLE,
+                         [GG_ITEM_I64] = H5T_NATIVE_INT64,
+                         [GG_ITEM_U64] = H5T_NATIVE_UINT64,
+                         [GG_ITEM_U8] = H5T_NATIVE_UINT8,
+                         [GG_ITEM_F32] = H5T_NATIVE_FLOAT};
+  return types[type];
 }
 
 /* Items are numbered, so that they come back in order; their names are attributes. */
@@ -46,7 +38,7 @@ static void write_items(gg_h5 *h, const gg_archive *a)
     snprintf(path, sizeof path, "/checkpoint/%zu", i);
     gg_h5_array(h, path, type_of(item->type), 1, &count, item->data);
     gg_h5_text_attribute(h, path, "name", item->name);
-    gg_h5_text_attribute(h, path, "type", item_types[item->type].name);
+    gg_h5_text_attribute(h, path, "type", item_types[item->type]);
   }
 }
 
@@ -57,7 +49,7 @@ static gg_status make_image(const char *path, const gg_archive *a, const gg_scen
   uint64_t n = a->n_items;
   const int layout = GG_CHECKPOINT_LAYOUT;
   GG_FREED char *yaml = gg_scene_yaml(scene);
-  gg_h5_create_in_memory(&h);
+  gg_h5_create(&h, NULL);
   h.stop = a->stop;
   if (!yaml) gg_h5_failed(&h, "out of memory");
   gg_h5_text(&h, "/checkpoint/scene", yaml ? yaml : "");
@@ -82,8 +74,8 @@ static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
   return kept ? GG_OK : gg_io_path_write_error(file->path, strerror(errno), err);
 }
 
-static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
-                          gg_error *err)
+gg_status gg_files_checkpoint_write(const char *path, bool locked, bool keep, const gg_archive *a,
+                                    const gg_scene *scene, gg_error *err)
 {
   gg_atomic_file file;
   size_t size = 0;
@@ -97,19 +89,8 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   if (status == GG_OK && a->stop && gg_stop_asked(a->stop))
     status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK && keep) status = keep_before(&file, err);
-  return gg_io_atomic_commit(&file, status, err);
-}
-
-gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene,
-                                    gg_error *err)
-{
-  return write_it(path, locked, true, a, scene, err);
-}
-
-gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *a, const gg_scene *scene, gg_error *err)
-{
-  GG_TRY(write_it(path, true, false, a, scene, err));
-  return gg_files_checkpoint_remove_before(path, err);
+  GG_TRY(gg_io_atomic_commit(&file, status, err));
+  return keep ? GG_OK : gg_files_checkpoint_remove_before(path, err);
 }
 
 static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
@@ -120,7 +101,7 @@ static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
   GG_FREED char *word = gg_h5_read_text_attribute(h, path, "type");
   int type = 0;
   size_t count;
-  while (!h->failed && type < GG_ITEM_TYPES && strcmp(item_types[type].name, word) != 0) type++;
+  while (!h->failed && type < GG_ITEM_TYPES && strcmp(item_types[type], word) != 0) type++;
   if (h->failed || type == GG_ITEM_TYPES) return GG_OK;
   GG_FREED void *data = gg_h5_read_array(h, path, (gg_item_type)type, &count);
   return data ? gg_base_archive_put(a, name, (gg_item_type)type, data, count, err) : GG_OK;

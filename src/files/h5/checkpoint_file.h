@@ -14,13 +14,11 @@ struct gg_h5_in;
  * is refused by name. 2: the scene's keys one by one; 3: spins under md's Gaussian thermostat as they are outside. */
 enum { GG_CHECKPOINT_LAYOUT = 6 };
 
-/* `locked`: the caller holds the lock of this path (io/atomic_file.h). */
-gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
-                                    gg_error *err);
-/* The first of a run that does not resume from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was
- * there is removed, since neither is a fall-back of this run. The caller holds the lock. */
-gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene,
-                                      gg_error *err);
+/* `locked`: the caller holds the lock of this path (io/atomic_file.h). `keep`: the one before is kept. False of the
+ * first of a run that does not resume from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was
+ * there is removed, since neither is a fall-back of this run. */
+gg_status gg_files_checkpoint_write(const char *path, bool locked, bool keep, const gg_archive *archive,
+                                    const gg_scene *scene, gg_error *err);
 /* Name of FILE.1 where FILE is a link; to be freed. NULL: nowhere, or out of memory, which is noted. */
 char *gg_files_checkpoint_before(const char *path);
 /* Remove FILE.1. */

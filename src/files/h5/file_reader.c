@@ -90,29 +90,20 @@ static void read_superblock(gg_h5_in *in)
 
 void gg_h5_open(gg_h5_in *in, const char *path, bool any)
 {
-  memset(in, 0, sizeof *in);
-  in->fd = -1;
+  *in = (gg_h5_in){.fd = -1};
   errno = 0;
   const char *broken = gg_files_checksum_trailer_open(path, &in->fd, &in->size, &in->own, &in->changed);
   in->whole = in->own;
   if (!broken && in->changed && !any) broken = cut_off;
-  if (broken)
-    gg_h5_in_failed(in, broken);
-  else
-    read_superblock(in);
+  broken ? gg_h5_in_failed(in, broken) : read_superblock(in);
 }
 
 void gg_h5_open_bytes(gg_h5_in *in, const void *bytes, size_t size)
 {
-  memset(in, 0, sizeof *in);
-  in->fd = -1;
+  *in = (gg_h5_in){.fd = -1, .whole = bytes};
   errno = 0;
   const char *broken = gg_files_checksum_trailer_check(bytes, size, &in->size);
-  in->whole = bytes;
-  if (broken)
-    gg_h5_in_failed(in, broken);
-  else
-    read_superblock(in);
+  broken ? gg_h5_in_failed(in, broken) : read_superblock(in);
 }
 
 void gg_h5_in_close(gg_h5_in *in)

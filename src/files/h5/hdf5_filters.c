@@ -10,7 +10,7 @@
 static const char other_filter[] =
     "is compressed by another filter than gzip, which graingas does not read (h5repack -f NONE undoes it)";
 
-/* One of them: number, length of its name, flags, how many parameters; name and parameters follow. */
+/* Bytes that describe a filter: number, length of its name, flags, number of parameters; then name and parameters. */
 static size_t size_of_filter(const unsigned char *at, size_t left, unsigned version)
 {
   const bool named = version == 1 || gg_h5_word(at, 2) >= 256;

@@ -62,31 +62,20 @@ static bool start(gg_h5 *h)
   return h->silenced = true;
 }
 
-static void create(gg_h5 *h, const char *path, bool in_memory)
+void gg_h5_create(gg_h5 *h, const char *path)
 {
+  char name[40]; /* HDF5 takes open files of one name for one file, those in memory, too: each has its own */
   if (!start(h)) return;
+  snprintf(name, sizeof name, "graingas-%p", (void *)h);
   hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   bool ready = H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
                /* the form that hdf5_reader.h reads */
                H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST) >= 0 &&
-               (!in_memory || H5Pset_fapl_core(access, 1 << 20, 0) >= 0);
+               (path || H5Pset_fapl_core(access, 1 << 20, 0) >= 0);
   if (!ready) gg_h5_failed(h, "out of memory");
-  if (ready) h->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (ready) h->file = H5Fcreate(path ? path : name, H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (h->file < 0) gg_h5_failed(h, "HDF5 cannot create it"); /* before the next call clears HDF5's error stack */
   H5Pclose(access);
-}
-
-/* HDF5 takes open files of one name for one file, those in memory, too: each has its own. */
-void gg_h5_create_in_memory(gg_h5 *h)
-{
-  char name[40];
-  snprintf(name, sizeof name, "graingas-%p", (void *)h);
-  create(h, name, true);
-}
-
-void gg_h5_create(gg_h5 *h, const char *path)
-{
-  create(h, path, false);
 }
 
 void *gg_h5_image(gg_h5 *h, size_t *size)
@@ -203,14 +192,9 @@ void gg_h5_text(gg_h5 *h, const char *path, const char *text)
   H5Tclose(type);
 }
 
-void gg_h5_number(gg_h5 *h, const char *path, double value)
+void gg_h5_number(gg_h5 *h, const char *path, double value, const char *unit)
 {
   gg_h5_array(h, path, H5T_NATIVE_DOUBLE, 0, NULL, &value);
-}
-
-void gg_h5_number_of_unit(gg_h5 *h, const char *path, double value, const char *unit)
-{
-  gg_h5_number(h, path, value);
   if (unit) gg_h5_text_attribute(h, path, "unit", unit);
 }
 
@@ -277,11 +261,6 @@ void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n)
   gg_h5_array(h, path, type, 1, &count, packed);
   H5Tclose(type);
   free(packed);
-}
-
-void gg_h5_ints_attribute(gg_h5 *h, const char *object, const char *name, const int *values, size_t n)
-{
-  gg_h5_attribute(h, object, name, H5T_NATIVE_INT, values, n);
 }
 
 /* A megabyte a chunk at most, and at most one row, which is divided evenly: a chunk is stored whole, also where the row

@@ -21,8 +21,7 @@ typedef struct gg_h5 {
   void *print_data;
 } gg_h5;
 
-/* A new file in memory, or on disk. */
-void gg_h5_create_in_memory(gg_h5 *h);
+/* A new file on disk, or in memory (path: NULL). */
 void gg_h5_create(gg_h5 *h, const char *path);
 /* The bytes of a file made in memory, to be freed. */
 void *gg_h5_image(gg_h5 *h, size_t *size);
@@ -37,18 +36,16 @@ void gg_h5_group(gg_h5 *h, const char *path);
 void gg_h5_text(gg_h5 *h, const char *path, const char *text);
 /* n texts as an array of the longest one's size. */
 void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n);
-void gg_h5_number(gg_h5 *h, const char *path, double value);
 void gg_h5_count(gg_h5 *h, const char *path, uint64_t value);
 /* An array; `type` of the numbers in memory, and in the file. */
 void gg_h5_array(gg_h5 *h, const char *path, hid_t type, int rank, const hsize_t *dims, const void *data);
 /* A number, or an array of them, with its unit as an attribute; NULL: none. */
-void gg_h5_number_of_unit(gg_h5 *h, const char *path, double value, const char *unit);
+void gg_h5_number(gg_h5 *h, const char *path, double value, const char *unit);
 void gg_h5_numbers(gg_h5 *h, const char *path, const double *values, size_t n, const char *unit);
 /* A second name for the same thing. */
 void gg_h5_link(gg_h5 *h, const char *target, const char *path);
 void gg_h5_text_attribute(gg_h5 *h, const char *object, const char *name, const char *text);
 void gg_h5_texts_attribute(gg_h5 *h, const char *object, const char *name, const char *const *texts, size_t n);
-void gg_h5_ints_attribute(gg_h5 *h, const char *object, const char *name, const int *values, size_t n);
 /* n numbers under the object, which is a file, group or array; n = 0: one, without dimensions */
 void gg_h5_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, const void *values, size_t n);
 

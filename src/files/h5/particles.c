@@ -92,7 +92,7 @@ static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
   for (int a = 0; a < dimension; a++)
     boundary[a] = !p->boxed || gg_common_surface_is_closed(model, a) ? "none" : "periodic";
   gg_h5_group(h, GRAINS "/box");
-  gg_h5_ints_attribute(h, GRAINS "/box", "dimension", &dimension, 0);
+  gg_h5_attribute(h, GRAINS "/box", "dimension", H5T_NATIVE_INT, &dimension, 0);
   gg_h5_texts_attribute(h, GRAINS "/box", "boundary", boundary, 3);
   if (!p->boxed) return;
   const hsize_t row[2] = {3, 3};

@@ -30,7 +30,7 @@ static void write_h5md(gg_h5 *h)
   if (getpwuid_r(getuid(), &entry, buffer, sizeof buffer, &found) != 0) found = NULL;
   gg_h5_group(h, "/h5md/author");
   gg_h5_group(h, "/h5md/creator");
-  gg_h5_ints_attribute(h, "/h5md", "version", version, 2);
+  gg_h5_attribute(h, "/h5md", "version", H5T_NATIVE_INT, version, 2);
   gg_h5_text_attribute(h, "/h5md/author", "name", found ? found->pw_name : "unknown");
   gg_h5_text_attribute(h, "/h5md/creator", "name", "graingas");
   gg_h5_text_attribute(h, "/h5md/creator", "version", gg_base_build_version);
@@ -77,8 +77,8 @@ static void write_estimate(gg_h5 *h, const char *group, const gg_quantity_row *r
                  {"correlation_time", e->correlation_time, r->correlation_time_unit}};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
     if (!isnan(numbers[i].value)) /* what cannot be had is not there */
-      gg_h5_number_of_unit(h, gg_h5_path(h, "%s/results/%s/%s", group, row->name, numbers[i].name), numbers[i].value,
-                           numbers[i].unit);
+      gg_h5_number(h, gg_h5_path(h, "%s/results/%s/%s", group, row->name, numbers[i].name), numbers[i].value,
+                   numbers[i].unit);
   gg_h5_count(h, gg_h5_path(h, "%s/results/%s/samples", group, row->name), e->samples);
   gg_h5_text(h, gg_h5_path(h, "%s/results/%s/unit", group, row->name), row->unit);
   gg_h5_text_attribute(h, gg_h5_path(h, "%s/results/%s", group, row->name), "doc", row->doc);
@@ -102,7 +102,7 @@ static void write_correlations(gg_h5 *h, const char *group, const gg_result *r)
 static void write_effort(gg_h5 *h, const char *group, const char *name, const gg_effort *effort)
 {
   gg_h5_count(h, gg_h5_path(h, "%s/%s/collisions", group, name), effort->collisions);
-  gg_h5_number(h, gg_h5_path(h, "%s/%s/cpu_seconds", group, name), effort->cpu_seconds);
+  gg_h5_number(h, gg_h5_path(h, "%s/%s/cpu_seconds", group, name), effort->cpu_seconds, NULL);
 }
 
 static void write_times(gg_h5 *h, const char *group, const gg_history *history)
@@ -154,9 +154,8 @@ static void write_curve_numbers(gg_h5 *h, const char *base, const gg_curve *c)
   for (int i = 0; i < c->n_numbers; i++) {
     const gg_curve_number *p = &c->number[i];
     if (!isfinite(p->value)) continue; /* what cannot be had is not there */
-    gg_h5_number_of_unit(h, gg_h5_path(h, "%s/numbers/%s/mean", base, p->name), p->value, p->unit);
-    if (isfinite(p->error))
-      gg_h5_number_of_unit(h, gg_h5_path(h, "%s/numbers/%s/stderr", base, p->name), p->error, p->unit);
+    gg_h5_number(h, gg_h5_path(h, "%s/numbers/%s/mean", base, p->name), p->value, p->unit);
+    if (isfinite(p->error)) gg_h5_number(h, gg_h5_path(h, "%s/numbers/%s/stderr", base, p->name), p->error, p->unit);
   }
 }
 
@@ -214,8 +213,8 @@ static void write_answers(gg_h5 *h, const char *group, const gg_quantity_rows *r
     const gg_quantity_row *row = &rows->row[k];
     const double value = a->value[row->quantity], error = a->error[row->quantity];
     if (!isfinite(value)) continue;
-    gg_h5_number(h, gg_h5_path(h, "%s/%s/mean", group, row->name), value);
-    if (isfinite(error)) gg_h5_number(h, gg_h5_path(h, "%s/%s/error", group, row->name), error);
+    gg_h5_number(h, gg_h5_path(h, "%s/%s/mean", group, row->name), value, NULL);
+    if (isfinite(error)) gg_h5_number(h, gg_h5_path(h, "%s/%s/error", group, row->name), error, NULL);
     gg_h5_text(h, gg_h5_path(h, "%s/%s/unit", group, row->name), row->unit);
   }
 }
@@ -241,13 +240,8 @@ typedef struct gg_result_writer {
 
 gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
-  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
-  return gg_io_atomic_open(&f->file, path, false, err);
-}
-
-void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command)
-{
-  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = true};
+  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = !path};
+  return path ? gg_io_atomic_open(&f->file, path, false, err) : GG_OK;
 }
 
 static void forget(gg_result_file *f)
@@ -278,10 +272,7 @@ static gg_status create(gg_result_file *f, bool streaming, gg_error *err)
   w->streaming = streaming;
   w->particles.single = f->scene && f->scene->output.precision == GG_SINGLE;
   w->particles.left_out = f->scene ? GG_FIELDS_ALL & ~f->scene->output.fields : 0;
-  if (streaming)
-    gg_h5_create(&w->h, f->file.temporary);
-  else
-    gg_h5_create_in_memory(&w->h);
+  gg_h5_create(&w->h, streaming ? f->file.temporary : NULL);
   w->h.stop = f->stop;
   f->now = w;
   return GG_OK;

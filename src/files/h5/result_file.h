@@ -31,10 +31,9 @@ typedef struct gg_result_file {
   struct gg_result_writer *now; /* what was begun of the file (result_file.c); NULL: nothing */
 } gg_result_file;
 
-/* `path` is checked to be writable and left untouched until the end; nobody else can open it in between. */
+/* `path` is checked to be writable and left untouched until the end; nobody else can open it in between. NULL: the file
+ * is not to be written, and its finish leaves it in `bytes`. */
 gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err);
-/* The file is not to be written: its finish leaves it in `bytes`. */
-void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command);
 /* Store a frame now. */
 gg_status gg_files_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err);
 /* Write all the rest, and put the file in place; on failure nothing is left. */

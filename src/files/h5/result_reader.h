@@ -40,7 +40,7 @@ typedef struct gg_stored_result {
 } gg_stored_result;
 
 gg_status gg_files_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
-/* Likewise from what gg_files_result_file_open_in_memory left. */
+/* Likewise from the bytes of a result file in memory. */
 gg_status gg_files_stored_result_from_bytes(gg_stored_result *stored, const void *bytes, size_t size, gg_error *err);
 /* The first engine that the file has. */
 gg_engine_kind gg_files_stored_first(const gg_stored_result *stored);

@@ -238,7 +238,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   size_t i;
   json_t *line;
   json_array_foreach(json_object_get(e->document, "warnings"), i, line) if (json_is_string(line))
-      gg_run_result_warn(r, "%s", json_string_value(line));
+      GG_WARN(r, "%s", json_string_value(line));
   restore_means(r, e->document);
   GG_TRY(restore_correlations(r, e, err));
   restore_effort(r, e->document);

@@ -14,12 +14,8 @@ static gg_status refuse(const char *path, gg_error *err)
 
 gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
-  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
-  return refuse(path, err);
-}
-void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command)
-{
-  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = true};
+  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = !path};
+  return refuse(path ? path : "the result", err);
 }
 gg_status gg_files_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
 {
@@ -41,10 +37,10 @@ void gg_files_result_file_abandon(gg_result_file *f)
   (void)f;
 }
 
-gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
-                                    gg_error *err)
+gg_status gg_files_checkpoint_write(const char *path, bool locked, bool keep, const gg_archive *archive,
+                                    const gg_scene *scene, gg_error *err)
 {
-  (void)locked, (void)archive, (void)scene;
+  (void)locked, (void)keep, (void)archive, (void)scene;
   return refuse(path, err);
 }
 gg_status gg_files_checkpoint_to_bytes(const gg_archive *archive, const gg_scene *scene, void **bytes, size_t *size,
@@ -52,11 +48,6 @@ gg_status gg_files_checkpoint_to_bytes(const gg_archive *archive, const gg_scene
 {
   (void)archive, (void)scene, (void)bytes, (void)size;
   return refuse("the simulation", err);
-}
-gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err)
-{
-  (void)archive, (void)scene;
-  return refuse(path, err);
 }
 char *gg_files_checkpoint_before(const char *path)
 {
