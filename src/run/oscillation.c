@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "run/oscillation.h"
+
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "measure/harmonics.h"
 #include "run/protocol_times.h"
 #include "run/series_means.h"
-#include "run/time_course.h"
 #include "scene/fields.h"
 
 /* The values of a replica at one sample. */

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "graingas.h"
+#include "run/progress_estimate.h"
 #include "run/replicas.h"
 
 void gg_run_progress_record_errors(gg_progress_estimate *o, double window, const gg_convergence *c)

@@ -5,8 +5,8 @@
 #define GG_REPLICAS_H
 
 #include "measure/slow_modes.h"
+#include "run/progress_estimate.h"
 #include "run/scheduler.h"
-#include "statistics/averaging_forecast.h"
 #include "statistics/stopping_rule.h"
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
@@ -33,27 +33,6 @@ typedef struct gg_convergence { /* of the present averaging window */
   double slow_mode_time;          /* its decay time, in samples */
   int slow_mode_least;            /* decay times that a window needs */
 } gg_convergence;
-
-/* Progress and time left of a run, which does not depend on them. The forecast says at which sample the run ends; the
- * time of recent samples predicts when. */
-enum { GG_PROGRESS_MARKS = 64 };
-
-typedef struct gg_progress_estimate {
-  gg_averaging_forecast forecast;
-  int n_marks; /* of the present phase */
-  struct {
-    double wall, due; /* a clock reading, and how many samples every replica had taken */
-  } marks[GG_PROGRESS_MARKS];
-  double fraction; /* the largest reported */
-} gg_progress_estimate;
-
-/* progress.c: averaging begins, at another pace. */
-void gg_run_progress_new_phase(gg_progress_estimate *o);
-/* The window has this many samples, and this is known of its means. */
-void gg_run_progress_record_errors(gg_progress_estimate *o, double window, const gg_convergence *c);
-void gg_run_progress_record_time(gg_progress_estimate *o, double wall, double due);
-/* Seconds a sample, lately; NaN where that is not known yet. */
-double gg_run_progress_pace(const gg_progress_estimate *o);
 
 typedef struct gg_replicas {
   gg_scene scene;

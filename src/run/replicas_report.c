@@ -30,7 +30,7 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q, gg_result 
   if (all->replica[0].sampler.n_observables == 0) return "nothing is measured in this scene";
   gg_function f;
   if (gg_measure_sampler_find(&all->replica[0].sampler, q, &f) >= 0 && f.unknown)
-    return gg_run_result_warn(result, "%s: %s", gg_common_quantity_name(q), f.unknown), f.unknown;
+    return GG_WARN(result, "%s: %s", gg_common_quantity_name(q), f.unknown), f.unknown;
   const char *reason = gg_common_quantity_missing(gas_of(all), q);
   return reason ? reason : "not measured in this scene";
 }

@@ -7,9 +7,11 @@
 
 #include "base/memory.h"
 #include "common/engine_grains.h"
+#include "run/oscillation.h"
 #include "run/protocol_times.h"
 #include "run/series_means.h"
 #include "scene/fields.h"
+#include "theory/relaxation.h"
 
 static double itself(const double *value, const gg_model *m)
 {

@@ -4,14 +4,9 @@
 #define GG_RUN_TIME_COURSE_H
 
 #include "run/replicas.h"
-#include "theory/relaxation.h"
 
 gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q);
 /* Curves of all quantities with a history, beside the Gaussian closure's if it has an answer. */
 gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, gg_error *err);
-
-/* oscillation.c: under shear_period, one period of stress and temperature, and their harmonics. Curves over the later
- * half of the periods, with numbers derived from them. `theory`: at every sample; NULL: none. */
-gg_status gg_run_oscillation_curves(const gg_replicas *all, const gg_relaxing *theory, gg_curves *list, gg_error *err);
 
 #endif

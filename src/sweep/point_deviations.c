@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deviations of the rows of a comparison from their reference, by the functions that `compare` uses. */
-#include "sweep/sweep_table.h"
+#include "sweep/point_deviations.h"
 
 #include <math.h>
 #include <stdlib.h>

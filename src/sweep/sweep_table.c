@@ -23,6 +23,7 @@
 #include "run/result.h"
 #include "scene/model_of_scene.h"
 #include "sweep/folder.h"
+#include "sweep/point_deviations.h"
 #include "theory/theory.h"
 
 void gg_sweep_point_table_clear(gg_point_table *t)

@@ -62,10 +62,6 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *table, const gg_s
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *table, const gg_sweep *sweep, const char *path,
                                         const char *command, gg_error *err);
 
-/* point_deviations.c: deviations of the rows of a point, from `first` on, from their reference: Enskog's noise-free
- * solution, else dsmc. `scene` is the YAML beside the document. NaN and NULL without a reference. */
-gg_status gg_sweep_point_deviations(gg_point_table *table, size_t first, json_t *document, char *scene, gg_error *err);
-
 /* The key along x, by its place among the varied keys. */
 typedef struct gg_picture_axis {
   size_t varied, k, n; /* n values */

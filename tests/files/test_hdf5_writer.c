@@ -63,9 +63,9 @@ static void write_texts_attribute(gg_h5 *h)
 {
   gg_h5_texts_attribute(h, "/there", "texts", texts, 2);
 }
-static void write_ints_attribute(gg_h5 *h)
+static void write_attribute(gg_h5 *h)
 {
-  gg_h5_ints_attribute(h, "/there", "ints", (const int[]){1, 2}, 2);
+  gg_h5_attribute(h, "/there", "ints", H5T_NATIVE_INT, (const int[]){1, 2}, 2);
 }
 static void create_rows(gg_h5 *h)
 {
@@ -92,27 +92,15 @@ static void make_image(gg_h5 *h)
   free(gg_h5_image(h, &size));
 }
 
-static void (*const calls[])(gg_h5 *) = {write_text,
-                                         write_texts,
-                                         write_number,
-                                         write_count,
-                                         write_array,
-                                         write_numbers,
-                                         write_group,
-                                         write_link,
-                                         create_rows,
-                                         write_text_attribute,
-                                         write_texts_attribute,
-                                         append_row,
-                                         write_ints_attribute,
-                                         read_row,
-                                         drop_row,
-                                         make_image};
+static void (*const calls[])(gg_h5 *) = {
+    write_text, write_texts, write_number,         write_count,           write_array, write_numbers,   write_group,
+    write_link, create_rows, write_text_attribute, write_texts_attribute, append_row,  write_attribute, read_row,
+    drop_row,   make_image};
 
 /* A file with something in it, so that HDF5 is in use; HDF5 keeps no blocks for later. */
 static void begin(gg_h5 *h)
 {
-  gg_h5_create_in_memory(h);
+  gg_h5_create(h, NULL);
   gg_h5_number(h, "/there", 1, NULL);
   gg_h5_rows_create(h, &rows, "/rows", H5T_NATIVE_DOUBLE, 2, two_by_two);
   gg_h5_rows_append(h, &rows, numbers);
@@ -144,7 +132,7 @@ static void without_memory_hdf5_is_not_called(void **state)
   }
   gg_h5 h;
   failing_malloc_arm(1, true, NULL);
-  gg_h5_create_in_memory(&h);
+  gg_h5_create(&h, NULL);
   gg_h5_close(&h);
   failing_malloc_disarm(NULL);
   assert_true(h.failed);
