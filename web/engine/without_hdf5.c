@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Replacement of the writing half of this room where there is no HDF5: the page in a browser reads results and writes
- * none. Calls that write return an error. */
+/* Replacement of the half of src/files/h5 that writes: the page in a browser reads results and writes none. Calls that
+ * write return an error. */
 #include <stdlib.h>
 #include <string.h>
 
