@@ -30,8 +30,9 @@ GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner);
 GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i);
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i);
 
-/* event_loop.h: insert the result of a search into the event queue. */
-GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s);
+/* event_loop.h: insert the result of a search into the event queue. `is_next`, a constant: the grain is that of the
+ * event in progress. */
+GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s, bool is_next);
 /* Search from scratch, and insert the result. */
 static void gg_md_predict(gg_md *e, uint32_t i);
 
