@@ -25,6 +25,7 @@ enum {
   ROWS_MOVE = true,
   KNOWS_IMAGES = true,
   FEW_MEET = false,
+  HAS_COPIES = false,
   CACHED = 6000,
   SMALL_CELLS = true,
   PREDICTS_IN_PLACE = false

@@ -7,6 +7,7 @@
  *   ROWS_MOVE      moving rows may separate images along x by several edges
  *   KNOWS_IMAGES   a search knows whether all candidates are in the grain's own image of the box
  *   FEW_MEET       few candidates approach: a batch is first tested for any contact
+ *   HAS_COPIES     a candidate may be listed several times
  *   CACHED         up to so many grains are in the cache: nothing is prefetched
  *   SMALL_CELLS    cells may be small (cell_grid.h)
  *   PREDICTS_IN_PLACE   a stale event is re-predicted inline, not by a call (faster by 1 to 3 % in some searches) */

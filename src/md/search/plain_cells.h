@@ -18,6 +18,7 @@ enum {
   ROWS_MOVE = false,
   KNOWS_IMAGES = true,
   FEW_MEET = false,
+  HAS_COPIES = false,
   CACHED = 6000,
   SMALL_CELLS = true,
   PREDICTS_IN_PLACE = true

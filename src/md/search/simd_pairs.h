@@ -116,6 +116,14 @@ gg_md_exact_contact(const gg_md *e, const gg_md_grain *g, const uint32_t *list, 
   return first;
 }
 
+/* True if the estimates that may be the earliest, by lane of best->soonest, belong to this grain alone. */
+GG_INLINE bool gg_md_are_copies(const gg_md_foremost *best, uint32_t lanes, const uint32_t *list, uint32_t grain)
+{
+  for (; lanes; lanes &= lanes - 1)
+    if (list[gg_label_of(best->soonest[__builtin_ctz(lanes)])] != grain) return false;
+  return true;
+}
+
 /* Take the earliest contact with the grains of a list, which is filled up to a multiple of eight with the grain at
  * position NaN. Estimates select the earliest contact; if they leave doubt, all contacts are computed exactly. */
 GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *list, uint32_t count,
@@ -135,8 +143,8 @@ GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *l
   uint32_t at = gg_label_of(first[0]), lane = at % GG_BATCH;
   gg_v8 limit = (1 - 4 * GG_MD_ABOUT) * first;
   uint32_t lanes = gg_lanes8(gg_not_above8(limit, best.soonest));
-  bool alone = !(lanes & (lanes - 1)) && first[0] < GG_MD_AT_ONCE;
-  if (__builtin_expect(alone && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
+  bool alone = !(lanes & (lanes - 1)) || (HAS_COPIES && gg_md_are_copies(&best, lanes, list, list[at]));
+  if (__builtin_expect(alone && first[0] < GG_MD_AT_ONCE && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
     gg_md_take_lane(e, s, &best.q, lane, list[at]);
     return;
   }
