@@ -15,8 +15,9 @@
 #include "md/search/simd_pairs.h"
 
 /* Replace the entry of a grain in the event queue, which is not deferred, by the result of a search. The new entry is
- * deferred to the schedule of the next event: by then the line of its bucket has arrived. */
-GG_INLINE void gg_md_schedule_at(gg_md *e, gg_md_search *s, int place)
+ * deferred to the schedule of the next event: by then the line of its bucket has arrived. `is_next`, a constant: the
+ * grain is that of the event in progress, whose entry is the next one. */
+GG_INLINE void gg_md_schedule_at(gg_md *e, gg_md_search *s, int place, bool is_next)
 {
   gg_md_node *node = &e->node[s->grain];
   if (IS_WALLED) gg_md_try_surfaces(e, s);
@@ -26,15 +27,18 @@ GG_INLINE void gg_md_schedule_at(gg_md *e, gg_md_search *s, int place)
     node->counter = GG_MD_NO_GRAIN(s->partner) ? 0 : e->grain[s->partner].counter;
   }
   double crossing = gg_md_next_crossing(e, s, &node->face);
-  gg_md_queue_remove(&e->queue, e->node, s->grain);
+  if (is_next)
+    gg_md_queue_remove_next(&e->queue);
+  else
+    gg_md_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < crossing ? s->collision : crossing;
   gg_md_queue_defer(&e->queue, e->node, s->grain, place);
 }
 
-GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
+GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s, bool is_next)
 {
   gg_md_queue_store_pending(&e->queue, e->node);
-  gg_md_schedule_at(e, s, 0);
+  gg_md_schedule_at(e, s, 0, is_next);
 }
 
 /* Search from scratch for a grain whose record is at the present time. The record is not written: at a start several
@@ -47,17 +51,17 @@ GG_INLINE void gg_md_search_anew(gg_md *e, gg_md_search *s, uint32_t i)
   gg_md_search_all(e, s);
 }
 
-GG_INLINE void gg_md_predict_in_place(gg_md *e, uint32_t i)
+GG_INLINE void gg_md_predict_in_place(gg_md *e, uint32_t i, bool is_next)
 {
   gg_md_search s = {.candidates = e->candidates};
   gg_md_search_anew(e, &s, i);
-  gg_md_schedule(e, &s);
+  gg_md_schedule(e, &s, is_next);
 }
 
 /* The same as a call, for rare events. */
 static __attribute__((noinline)) void gg_md_predict(gg_md *e, uint32_t i)
 {
-  gg_md_predict_in_place(e, i);
+  gg_md_predict_in_place(e, i, false);
 }
 
 /* Re-predict a grain whose partner has collided since. */
@@ -65,19 +69,19 @@ GG_INLINE void gg_md_re_predict(gg_md *e, uint32_t i)
 {
   gg_md_synchronise(e, i);
   if (PREDICTS_IN_PLACE)
-    gg_md_predict_in_place(e, i);
+    gg_md_predict_in_place(e, i, true);
   else
     gg_md_predict(e, i);
 }
 
 /* Predict two grains. Both searches precede both insertions into the event queue, so the processor overlaps them. */
-GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j)
+GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j, bool i_is_next)
 {
   gg_md_search one = {.candidates = e->candidates}, two = {.candidates = e->candidates + GG_MD_CANDIDATES_APART};
   gg_md_search_anew(e, &one, i);
   gg_md_search_anew(e, &two, j);
-  gg_md_schedule(e, &one);
-  gg_md_schedule_at(e, &two, 1);
+  gg_md_schedule(e, &one, i_is_next);
+  gg_md_schedule_at(e, &two, 1, false);
 }
 
 GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
@@ -91,7 +95,7 @@ GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
   two->counter++;
   e->k.collisions++;
   e->k.collisions_left--;
-  if (gg_md_is_velocity(e, one) && gg_md_is_velocity(e, two)) gg_md_predict_two(e, i, j);
+  if (gg_md_is_velocity(e, one) && gg_md_is_velocity(e, two)) gg_md_predict_two(e, i, j, true);
 }
 
 GG_INLINE void gg_md_hit_surface(gg_md *e, uint32_t i, int surface)

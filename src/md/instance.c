@@ -22,7 +22,7 @@ static void predict(gg_md *e, uint32_t from, uint32_t to)
 /* The same for two grains after a kick. */
 static void predict_two(gg_md *e, uint32_t i, uint32_t j)
 {
-  gg_md_predict_two(e, i, j);
+  gg_md_predict_two(e, i, j, false);
   gg_md_queue_store_pending(&e->queue, e->node);
 }
 

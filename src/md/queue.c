@@ -49,6 +49,13 @@ void gg_md_queue_reset(gg_md_queue *q, double width)
   }
 }
 
+void gg_md_queue_insert_due(gg_md_queue *q, gg_md_due new)
+{
+  uint32_t k = q->n_due++;
+  for (; k > 0 && gg_md_is_before(q->due[k - 1], new); k--) q->due[k] = q->due[k - 1];
+  q->due[k] = new;
+}
+
 void gg_md_queue_chain(gg_md_bucket *bucket, gg_md_node *node, uint32_t grain)
 {
   uint32_t next = bucket->chain;

@@ -82,6 +82,8 @@ void gg_md_queue_reset(gg_md_queue *q, double width);
 bool gg_md_queue_next_bucket(gg_md_queue *q, gg_md_node *node);
 /* Multiply all times in the queue by a power of two. */
 void gg_md_queue_rescale(gg_md_queue *q, double factor);
+/* Insert an event into `due`; rare. */
+void gg_md_queue_insert_due(gg_md_queue *q, gg_md_due new);
 /* Insert a grain into the overflow list of a bucket, or remove it. */
 void gg_md_queue_chain(gg_md_bucket *bucket, gg_md_node *node, uint32_t grain);
 void gg_md_queue_unchain(gg_md_bucket *bucket, gg_md_node *node, uint32_t grain);
@@ -106,11 +108,10 @@ GG_INLINE bool gg_md_is_before(gg_md_due a, gg_md_due b)
   return (a.time < b.time) | ((a.time == b.time) & (a.grain < b.grain));
 }
 
-GG_INLINE void gg_md_queue_insert_due(gg_md_queue *q, gg_md_due new)
+/* Remove the next event. */
+GG_INLINE void gg_md_queue_remove_next(gg_md_queue *q)
 {
-  uint32_t k = q->n_due++;
-  for (; k > 0 && gg_md_is_before(q->due[k - 1], new); k--) q->due[k] = q->due[k - 1];
-  q->due[k] = new;
+  q->n_due--;
 }
 
 GG_INLINE void gg_md_queue_remove_due(gg_md_queue *q, uint32_t grain)

@@ -72,7 +72,7 @@ GG_INLINE bool gg_md_keep_gathered(gg_md_search *s, const gg_md_gathered *g)
 /* True if there is room for the grains of so many full cells. */
 GG_INLINE bool gg_md_has_room(const gg_md *e, int cells)
 {
-  return (uint32_t)cells * e->cells.stride <= GG_MD_MOST_CANDIDATES;
+  return __builtin_expect((uint32_t)cells * e->cells.stride <= GG_MD_MOST_CANDIDATES, 1);
 }
 
 /* Append the grains of a cell to the search. False: no room. */

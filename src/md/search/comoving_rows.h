@@ -25,6 +25,7 @@ enum {
   ROWS_MOVE = true,
   KNOWS_IMAGES = true,
   FEW_MEET = false,
+  HAS_COPIES = false,
   CACHED = 6000,
   SMALL_CELLS = true,
   PREDICTS_IN_PLACE = false
@@ -102,6 +103,25 @@ GG_INLINE void gg_md_take_small_window(const gg_md *e, gg_md_search *s, const gg
   if (!gg_md_take_window(e, s, rows, w, GG_MD_SMALL_CELL, GG_MD_SMALL_CELLS)) gg_md_take_overfull_window(e, s, rows, w);
 }
 
+/* The same for large cells: a call, because they are rare. */
+static __attribute__((noinline, unused)) void
+gg_md_take_large_window(const gg_md *e, gg_md_search *s, const gg_md_window_rows *rows, const gg_md_window *w)
+{
+  gg_md_take_window(e, s, rows, w, e->cells.stride, GG_MD_LARGE_CELLS);
+}
+
+/* Search the cells of a window one by one: on the reference path, and where there may be no room for all. */
+static __attribute__((noinline)) void gg_md_scan_one_by_one(const gg_md *e, gg_md_search *s,
+                                                            const gg_md_window_rows *rows, const gg_md_window *w)
+{
+  for (int m = w->deep[0]; m <= w->deep[1]; m++) {
+    const uint32_t *layer = e->cells.cell + (size_t)rows->z[m] * e->cells.stride;
+    gg_md_try_row(e, s, layer + (size_t)rows->y[0] * e->cells.stride, rows->own, w->own);
+    gg_md_try_row(e, s, layer + (size_t)rows->y[1] * e->cells.stride, rows->above, w->above);
+    gg_md_try_row(e, s, layer + (size_t)rows->y[-1] * e->cells.stride, rows->below, w->below);
+  }
+}
+
 GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window window)
 {
   const gg_md_cells *c = &e->cells;
@@ -115,21 +135,14 @@ GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window w
   uint32_t layers = (uint32_t)c->n[1] - 2, deep = (uint32_t)c->n[2] - 2;
   s->regular = (uint32_t)(at[1] - 1) < layers;
   s->inside = s->regular & ((uint32_t)(at[2] - 1) < deep);
-  if (IS_SIMD && gg_md_has_room(e, 33)) {
-    if (c->stride == GG_MD_SMALL_CELL)
-      gg_md_take_small_window(e, s, &rows, &window);
-    else if (c->stride == 8)
-      gg_md_take_window(e, s, &rows, &window, 8, GG_MD_EIGHT_WORDS);
-    else
-      gg_md_take_window(e, s, &rows, &window, c->stride, GG_MD_LARGE_CELLS);
-    return;
-  }
-  for (int m = window.deep[0]; m <= window.deep[1]; m++) {
-    const uint32_t *layer = c->cell + (size_t)rows.z[m] * c->stride;
-    gg_md_try_row(e, s, layer + (size_t)rows.y[0] * c->stride, rows.own, window.own);
-    gg_md_try_row(e, s, layer + (size_t)rows.y[1] * c->stride, rows.above, window.above);
-    gg_md_try_row(e, s, layer + (size_t)rows.y[-1] * c->stride, rows.below, window.below);
-  }
+  if (!IS_SIMD || !gg_md_has_room(e, 33))
+    gg_md_scan_one_by_one(e, s, &rows, &window);
+  else if (c->stride == GG_MD_SMALL_CELL)
+    gg_md_take_small_window(e, s, &rows, &window);
+  else if (c->stride == 8)
+    gg_md_take_window(e, s, &rows, &window, 8, GG_MD_EIGHT_WORDS);
+  else
+    gg_md_take_large_window(e, s, &rows, &window);
 }
 
 GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
@@ -219,7 +232,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
     gg_md_scan_window_ahead(e, &s, axis, step);
   }
   if (IS_SIMD) gg_md_try_candidates(e, &s);
-  gg_md_schedule(e, &s);
+  gg_md_schedule(e, &s, true);
 }
 
 /* Shift the rows by a cell: every grain searches the cells above that come within reach. For most grains this does not
@@ -238,7 +251,7 @@ static __attribute__((noinline)) void gg_md_search_shifted_rows(gg_md *e)
     gg_md_begin_search(&s, i, &here, node->collision, node->partner);
     gg_md_scan_window(e, &s, (gg_md_window){{0, -1}, {come, come}, {0, -1}, {-1, 1}});
     if (IS_SIMD) gg_md_try_candidates(e, &s);
-    if (s.collision < node->collision) gg_md_schedule(e, &s);
+    if (s.collision < node->collision) gg_md_schedule(e, &s, false);
   }
 }
 

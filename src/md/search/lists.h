@@ -21,6 +21,7 @@ enum {
   ROWS_MOVE = false,
   KNOWS_IMAGES = false,
   FEW_MEET = false,
+  HAS_COPIES = false,
   CACHED = 6000,
   SMALL_CELLS = false,
   PREDICTS_IN_PLACE = true

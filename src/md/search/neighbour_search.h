@@ -7,6 +7,7 @@
  *   ROWS_MOVE      moving rows may separate images along x by several edges
  *   KNOWS_IMAGES   a search knows whether all candidates are in the grain's own image of the box
  *   FEW_MEET       few candidates approach: a batch is first tested for any contact
+ *   HAS_COPIES     a candidate may be listed several times
  *   CACHED         up to so many grains are in the cache: nothing is prefetched
  *   SMALL_CELLS    cells may be small (cell_grid.h)
  *   PREDICTS_IN_PLACE   a stale event is re-predicted inline, not by a call (faster by 1 to 3 % in some searches) */
@@ -30,8 +31,9 @@ GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner);
 GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i);
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i);
 
-/* event_loop.h: insert the result of a search into the event queue. */
-GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s);
+/* event_loop.h: insert the result of a search into the event queue. `is_next`, a constant: the grain is that of the
+ * event in progress. */
+GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s, bool is_next);
 /* Search from scratch, and insert the result. */
 static void gg_md_predict(gg_md *e, uint32_t i);
 

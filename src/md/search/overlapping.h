@@ -10,6 +10,7 @@ enum {
   ROWS_MOVE = false,
   KNOWS_IMAGES = false,
   FEW_MEET = true,
+  HAS_COPIES = true,
   CACHED = 20000,
   SMALL_CELLS = false,
   PREDICTS_IN_PLACE = false

@@ -126,7 +126,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   gg_md_begin_search(&s, i, gg_md_synchronise_step(e, i, step), node->collision, node->partner);
   gg_md_check_memory(e, gg_md_enter_next(e, &s, step));
   gg_md_try_candidates(e, &s);
-  gg_md_schedule(e, &s);
+  gg_md_schedule(e, &s, true);
 }
 
 GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_md_node *node, int *axis, int32_t at[3])

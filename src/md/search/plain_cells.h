@@ -18,6 +18,7 @@ enum {
   ROWS_MOVE = false,
   KNOWS_IMAGES = true,
   FEW_MEET = false,
+  HAS_COPIES = false,
   CACHED = 6000,
   SMALL_CELLS = true,
   PREDICTS_IN_PLACE = true
@@ -133,6 +134,13 @@ GG_INLINE void gg_md_take_small_rows(const gg_md *e, gg_md_search *s, const int3
   if (!gg_md_take_rows(e, s, at, from, to, GG_MD_SMALL_CELLS)) gg_md_take_overfull_rows(e, s, at, from, to);
 }
 
+/* The same for large cells: a call, because they are rare. */
+static __attribute__((noinline, unused)) void
+gg_md_take_large_rows(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3])
+{
+  gg_md_take_rows(e, s, at, from, to, GG_MD_LARGE_CELLS);
+}
+
 static __attribute__((noinline, unused)) void
 gg_md_take_rows_at_wall(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3])
 {
@@ -152,19 +160,25 @@ GG_INLINE bool gg_md_take_box(const gg_md *e, gg_md_search *s, const int32_t at[
   else if (e->cells.stride == 8)
     gg_md_take_rows(e, s, at, from, to, GG_MD_EIGHT_WORDS);
   else
-    gg_md_take_rows(e, s, at, from, to, GG_MD_LARGE_CELLS);
+    gg_md_take_large_rows(e, s, at, from, to);
   s->inside = gg_md_is_inside(e, at);
   return true;
+}
+
+/* Search the cells from `from` to `to` one by one: on the reference path, and where there may be no room for all. */
+static __attribute__((noinline)) void gg_md_scan_one_by_one(const gg_md *e, gg_md_search *s, const int32_t at[3],
+                                                            const int from[3], const int to[3])
+{
+  for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
+    for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
+      gg_md_scan_plain_row(e, s, at[0] + from[0], at[0] + to[0], y, z);
 }
 
 /* Search the cells from `from` to `to`, and the moving rows. */
 GG_INLINE void gg_md_scan_cells(const gg_md *e, gg_md_search *s, const int from[3], const int to[3])
 {
   const int32_t *at = e->node[s->grain].cell;
-  if (!gg_md_take_box(e, s, at, from, to))
-    for (int32_t z = at[2] + from[2]; z <= at[2] + to[2]; z++)
-      for (int32_t y = at[1] + from[1]; y <= at[1] + to[1]; y++)
-        gg_md_scan_plain_row(e, s, at[0] + from[0], at[0] + to[0], y, z);
+  if (!gg_md_take_box(e, s, at, from, to)) gg_md_scan_one_by_one(e, s, at, from, to);
   gg_md_scan_moving_rows(e, s);
 }
 
@@ -209,7 +223,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   gg_md_begin_search(&s, i, gg_md_synchronise(e, i), node->collision, node->partner);
   if (IS_SHEARED && node->face == GG_MD_IMAGES_MOVED) {
     gg_md_scan_moving_rows(e, &s);
-    gg_md_schedule(e, &s);
+    gg_md_schedule(e, &s, true);
     return;
   }
   gg_md_grain *g = &e->grain[i];
@@ -232,7 +246,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   gg_md_enter_cell(e, i);
   gg_md_scan_ahead(e, &s, axis, step);
   if (IS_SIMD) gg_md_try_candidates(e, &s);
-  gg_md_schedule(e, &s);
+  gg_md_schedule(e, &s, true);
 }
 
 GG_INLINE void gg_md_shift_all(gg_md *e)

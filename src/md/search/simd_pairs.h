@@ -19,11 +19,10 @@ typedef enum gg_md_images {
 
 _Static_assert((int)GG_MAX_SPECIES <= (int)GG_LOOK_UP, "a batch looks species up in a table of this size");
 
-/* Contact quadratic of eight grains of a list with s->self, for the nearest images. */
-GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s, const uint32_t *list,
+/* Contact quadratic of eight grains of a list with grain g, for the nearest images. */
+GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_grain *g, const uint32_t *list,
                                           gg_md_images images, double offset)
 {
-  const gg_md_grain *g = s->self;
   const double *L = e->box.edge, *inverse = e->box.inverse, *sigma2 = e->contacts.sigma2;
   GG_RELOAD(L);
   GG_RELOAD(inverse);
@@ -61,14 +60,6 @@ GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s,
   return gg_md_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
 }
 
-/* Take the exact earliest contact of a batch. */
-GG_INLINE void gg_md_take_exact_batch(const gg_md *e, gg_md_search *s, gg_md_quadratic q, gg_m8 who)
-{
-  int64_t partner;
-  double t = gg_earliest8(e->k.now + gg_md_contact_delay8(q), who, &partner);
-  gg_md_take_contact(s, t, partner);
-}
-
 /* Take the exact contact of one lane, with grain `who`. */
 GG_INLINE void gg_md_take_lane(const gg_md *e, gg_md_search *s, const gg_md_quadratic *q, uint32_t lane, uint32_t who)
 {
@@ -99,17 +90,51 @@ GG_INLINE void gg_md_compare_batch(gg_md_foremost *best, gg_md_quadratic q, gg_m
   best->q.discriminant = gg_choose8(sooner, q.discriminant, best->q.discriminant);
 }
 
+GG_INLINE double gg_md_offset_of_images(const gg_md *e, gg_md_images images)
+{
+  return images == GG_MD_MOVING ? gg_md_offset(&e->box, e->k.now) : 0;
+}
+
+typedef struct gg_md_contact {
+  double time;
+  int64_t partner;
+} gg_md_contact;
+
+/* Earliest contact of grain g with the grains of a list, all computed exactly. A call, because it is rare, and without
+ * the search as argument, which then stays in registers. */
+static __attribute__((noinline, unused)) gg_md_contact
+gg_md_exact_contact(const gg_md *e, const gg_md_grain *g, const uint32_t *list, uint32_t count, gg_md_images images)
+{
+  const double offset = gg_md_offset_of_images(e, images);
+  gg_md_contact first = {INFINITY, GG_MD_NONE};
+  for (uint32_t k = 0; k < count; k += GG_BATCH) {
+    const gg_md_quadratic q = gg_md_try_batch(e, g, list + k, images, offset);
+    gg_md_contact c;
+    c.time = gg_earliest8(e->k.now + gg_md_contact_delay8(q), gg_who8(list + k), &c.partner);
+    if (c.time < first.time || (c.time == first.time && c.partner < first.partner)) first = c;
+  }
+  return first;
+}
+
+/* True if the estimates that may be the earliest, by lane of best->soonest, belong to this grain alone. */
+GG_INLINE bool gg_md_are_copies(const gg_md_foremost *best, uint32_t lanes, const uint32_t *list, uint32_t grain)
+{
+  for (; lanes; lanes &= lanes - 1)
+    if (list[gg_label_of(best->soonest[__builtin_ctz(lanes)])] != grain) return false;
+  return true;
+}
+
 /* Take the earliest contact with the grains of a list, which is filled up to a multiple of eight with the grain at
  * position NaN. Estimates select the earliest contact; if they leave doubt, all contacts are computed exactly. */
 GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *list, uint32_t count,
                               gg_md_images images)
 {
-  double offset = images == GG_MD_MOVING ? gg_md_offset(&e->box, e->k.now) : 0;
+  const double offset = gg_md_offset_of_images(e, images);
   gg_v8 never = gg_all8(0);
   gg_md_foremost best = {never, never, {never, never, never}};
   gg_m8 place = {0, 1, 2, 3, 4, 5, 6, 7};
   for (uint32_t k = 0; k < count; k += GG_BATCH, place += GG_BATCH) {
-    gg_md_quadratic q = gg_md_try_batch(e, s, list + k, images, offset);
+    gg_md_quadratic q = gg_md_try_batch(e, s->self, list + k, images, offset);
     if (FEW_MEET && !gg_any8(gg_md_meets8(q))) continue;
     gg_md_compare_batch(&best, q, place);
   }
@@ -118,19 +143,19 @@ GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *l
   uint32_t at = gg_label_of(first[0]), lane = at % GG_BATCH;
   gg_v8 limit = (1 - 4 * GG_MD_ABOUT) * first;
   uint32_t lanes = gg_lanes8(gg_not_above8(limit, best.soonest));
-  bool alone = !(lanes & (lanes - 1)) && first[0] < GG_MD_AT_ONCE;
-  if (__builtin_expect(alone && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
+  bool alone = !(lanes & (lanes - 1)) || (HAS_COPIES && gg_md_are_copies(&best, lanes, list, list[at]));
+  if (__builtin_expect(alone && first[0] < GG_MD_AT_ONCE && !gg_any8(gg_not_above8(limit, best.second)), 1)) {
     gg_md_take_lane(e, s, &best.q, lane, list[at]);
     return;
   }
-  for (uint32_t k = 0; k < count; k += GG_BATCH)
-    gg_md_take_exact_batch(e, s, gg_md_try_batch(e, s, list + k, images, offset), gg_who8(list + k));
+  const gg_md_contact exact = gg_md_exact_contact(e, s->self, list, count, images);
+  gg_md_take_contact(s, exact.time, exact.partner);
 }
 
-/* Test the gathered candidates. */
+/* Test the gathered candidates. One store fills them up. */
 GG_INLINE void gg_md_try_candidates(const gg_md *e, gg_md_search *s)
 {
-  for (int l = 0; l < GG_BATCH; l++) s->candidates[s->n_candidates + (uint32_t)l] = e->n;
+  *(gg_list8 *)(s->candidates + s->n_candidates) = e->n + (gg_list8){0};
   if (KNOWS_IMAGES && s->inside)
     gg_md_try_list(e, s, s->candidates, s->n_candidates, GG_MD_SAME);
   else if (!IS_SHEARED || (ROWS_MOVE && s->regular))
