@@ -16,7 +16,8 @@ from conftest import SOURCE
 
 SHORTER = {"friction": {"mus = [0.01, 0.03, 0.1, 0.3, 1, 3, 10]": "mus = [0.01, 0.1, 10]"},
            "suspension": {"np.linspace(0.13, 0.21, 17)": "np.linspace(0.145, 0.195, 11)"},
-           "three_questions": {"beta=[-0.9, -0.3, 0.3, 0.9]": "beta=[-0.9, 0.9]", "phi=[0.1, 0.3, 0.5]": "phi=[0.1, 0.5]"}}
+           "three_questions": {"beta=[-0.9, -0.3, 0.3, 0.9]": "beta=[-0.9, 0.9]", "phi=[0.1, 0.3, 0.5]": "phi=[0.1, 0.5]",
+                               "particles=500": "particles=250"}}
 NOTEBOOKS = {os.path.basename(path)[:-6]: path for path in glob.glob(os.path.join(SOURCE, "python", "notebooks", "*.ipynb"))}
 
 

@@ -447,12 +447,12 @@ def test_small_stack():
             return subprocess.run(["sh", "-c", 'ulimit -s 200 && exec "$@"', "sh", GRAINGAS, command, "s.yaml", *options,
                                    *threads], capture_output=True, text=True, cwd=folder)
 
-    # compare has both engines and the theories; each of the others of every other scene. Daily theory alone takes one
-    # scene: compare evaluates the same theories in the same thread.
+    # compare has both engines and the theories; each of the others of every other scene. Daily these take one scene, with
+    # friction for run: compare makes the same runs and evaluates the same theories, in the same threads.
     def taken(k, i, command):
         if os.environ.get("NIGHTLY") or command[0] == "compare":
             return command[0] == "compare" or (k + i) % 2
-        return k == 0 if command[0] == "theory" else (k + i) % 2
+        return k == (7 if command[0] == "run" else 0)
 
     cases = [(k, command) for k in range(len(scenes)) for i, command in enumerate(commands) if taken(k, i, command)]
     with concurrent.futures.ThreadPoolExecutor(2) as two:

@@ -159,7 +159,7 @@ static void same_bits_on(const gg_model *m)
 {
   gg_archive first = {0};
   for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
-    if (!gg_simd_instructions_run_here(set)) continue;
+    if (!gg_simd_instructions_run_here(set) || !gg_dsmc_kernels_for(set)->collide[m->single][false][m->rule]) continue;
     gg_engine *g = on_path(m, GG_DSMC_BLOCKS, 3);
     ((gg_dsmc *)g)->ensemble.kernels = gg_dsmc_kernels_for(set);
     gg_error err = {0};

@@ -370,7 +370,7 @@ static void damaged_checkpoints(gg_scene s)
   advance(g, INFINITY, 300);
   assert_int_equal(g->ops->save(g, &a, &err), GG_OK);
   int refused = 0;
-  for (int trial = 0; trial < 3000; trial++) {
+  for (int trial = 0; trial < (getenv("NIGHTLY") ? 3000 : 1000); trial++) {
     const gg_item *item = &a.items[gg_rng_below(&rng, (uint32_t)a.n_items)];
     unsigned char *byte = (unsigned char *)item->data +
                           gg_rng_below(&rng, (uint32_t)(item->count * gg_base_archive_item_size(item->type))),
@@ -385,7 +385,7 @@ static void damaged_checkpoints(gg_scene s)
     }
     *byte = was;
   }
-  assert_true(refused > 100);
+  assert_true(refused > (getenv("NIGHTLY") ? 100 : 33));
   gg_base_archive_clear(&a);
   g->ops->destroy(g);
 }

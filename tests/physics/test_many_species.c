@@ -12,11 +12,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "graingas.h"
 #include "run/run.h"
 #include "run/z_scores.h"
 #include "scene/model_of_scene.h"
 #include "theory/answer.h"
-#include "graingas.h"
 
 /* Medians of the tenths of exp(0.25 x), x normal. */
 static const double diameters[] = {0.663, 0.772, 0.845, 0.908, 0.969, 1.032, 1.101, 1.184, 1.296, 1.509};
@@ -176,12 +176,23 @@ static gg_scene sheared_scene(int species)
   return s;
 }
 
+/* The canary: a mass of one species that is off by a factor of two is detected. */
+static void check_canary(const gg_result *md)
+{
+  gg_scene wrong = sheared_scene(3);
+  wrong.species[2].mass *= 2;
+  gg_result *dsmc = run(wrong, GG_DSMC);
+  assert_true(worst_z(md, dsmc) > 6);
+  gg_result_free(dsmc);
+}
+
 static void engines_agree_on_sheared_mixtures(void **state)
 {
   (void)state;
   for (int species = 3; species <= TEN; species += TEN - 3) {
     gg_result *md = run(sheared_scene(species), GG_MD), *dsmc = run(sheared_scene(species), GG_DSMC);
     assert_true(worst_z(md, dsmc) < 4);
+    if (species == 3) check_canary(md);
     /* Energy is not shared alike: what is compared is no constant. */
     double first = dsmc->value[GG_Q_PARTIAL_TEMPERATURE].mean;
     double last = dsmc->value[GG_Q_PARTIAL_TEMPERATURE + species - 1].mean;
@@ -210,20 +221,10 @@ static void curves_of_sixteen(void **state)
   gg_result_free(r);
 }
 
-static void a_wrong_mass_is_detected(void **state)
-{
-  (void)state;
-  gg_scene wrong = sheared_scene(3);
-  wrong.species[2].mass *= 2;
-  gg_result *md = run(sheared_scene(3), GG_MD), *dsmc = run(wrong, GG_DSMC);
-  assert_true(worst_z(md, dsmc) > 6);
-  gg_result_free(md), gg_result_free(dsmc);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(species_share_the_temperature_in_equilibrium),
                                      cmocka_unit_test(engines_agree_on_sheared_mixtures),
-                                     cmocka_unit_test(curves_of_sixteen), cmocka_unit_test(a_wrong_mass_is_detected)};
+                                     cmocka_unit_test(curves_of_sixteen)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,8 @@
 
 #include "dsmc/parallel/schedule.h"
 
-#define PRECISION(precision, name)                                                                                     \
+/* Kernels of one precision in a set: of every rule, or of rough grains alone (GG_DSMC_SINGLE_... of quick sets). */
+#define EVERY_RULE(precision, name)                                                                                    \
   {                                                                                                                    \
     {&gg_dsmc_collide_##precision##_smooth_##name, &gg_dsmc_collide_##precision##_rough_##name,                        \
      &gg_dsmc_collide_##precision##_frictional_##name},                                                                \
@@ -14,13 +15,20 @@
       [GG_FRICTIONAL] = &gg_dsmc_collide_##precision##_frictional_own_##name                                           \
     }                                                                                                                  \
   }
+#define ROUGH_ALONE(precision, name)                                                                                   \
+  {                                                                                                                    \
+    {                                                                                                                  \
+      [GG_ROUGH] = &gg_dsmc_collide_##precision##_rough_##name                                                         \
+    }                                                                                                                  \
+  }
 #ifdef GG_DOUBLE_ALONE
 #define KERNELS(set, name)                                                                                             \
-  [set] = {                                                                                                            \
-      .collide = {PRECISION(double, name)}, .synchronise = {gg_dsmc_synchronise_##name}, .kick = gg_dsmc_kick_##name},
+  [set] = {.collide = {EVERY_RULE(double, name)},                                                                      \
+           .synchronise = {gg_dsmc_synchronise_##name},                                                                \
+           .kick = gg_dsmc_kick_##name},
 #else
 #define KERNELS(set, name)                                                                                             \
-  [set] = {.collide = {PRECISION(double, name), PRECISION(single, name)},                                              \
+  [set] = {.collide = {EVERY_RULE(double, name), GG_DSMC_SINGLE_##name(single, name)},                                 \
            .synchronise = {gg_dsmc_synchronise_##name, gg_dsmc_synchronise_single_##name},                             \
            .kick = gg_dsmc_kick_##name},
 #endif

@@ -13,7 +13,8 @@ typedef enum gg_dsmc_path {
   GG_DSMC_BLOCKS /* two blocks at a time */
 } gg_dsmc_path;
 
-/* Kernels of one set of instructions, by precision (double, single), contact of its own (without, with) and rule. */
+/* Kernels of one set of instructions, by precision (double, single), contact of its own (without, with) and rule. NULL:
+ * not compiled for this set. */
 typedef struct gg_dsmc_kernels {
   const gg_dsmc_instances *collide[2][2][GG_FRICTIONAL + 1];
   gg_dsmc_synchronise_blocks *synchronise[2];
