@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the results of a sweep are made into: gg_sweep_collect, tables and a picture; gg_sweep_validate, the verdict on
- * a grid of comparisons against Enskog's equation. */
+/* gg_sweep_collect: the results of a sweep as tables and a picture. gg_sweep_validate: grids of comparisons against
+ * Enskog's equation. */
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>

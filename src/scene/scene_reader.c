@@ -219,17 +219,6 @@ gg_status gg_scene_file_text(const char *path, char **out, size_t *length, gg_er
   return status;
 }
 
-gg_status gg_scene_file_beside(const char *file, const char *beside, char path[PATH_MAX], gg_error *err)
-{
-  struct stat about;
-  const char *slash = beside && *file != '/' ? strrchr(beside, '/') : NULL;
-  if (snprintf(path, PATH_MAX, "%.*s%s", slash ? (int)(slash - beside) + 1 : 0, slash ? beside : "", file) >= PATH_MAX)
-    return gg_base_fail(err, GG_BAD_FILE, "the path of the file is too long");
-  return stat(path, &about) == 0 && !S_ISREG(about.st_mode)
-             ? gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path)
-             : GG_OK;
-}
-
 const char *gg_scene_file_name(const char *path)
 {
   return strcmp(path, "-") == 0 ? "standard input" : path;

@@ -43,11 +43,10 @@ gg_status gg_scene_with_value(gg_scene_reader *r, const char *key, const char *v
 /* A whole scene; `key` is "". */
 gg_status gg_scene_read_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
 
-/* Path of a file that a scene names: a relative one is relative to the folder of the file `beside` (NULL: the current
- * one). GG_BAD_FILE where it is no file: a pipe would block whoever reads the scene. */
+/* speed_table.c: path of a file that a scene names; a relative one is relative to the folder of the file `beside`
+ * (NULL: the current one). GG_BAD_FILE where it is no file: a pipe would block whoever reads the scene. */
 gg_status gg_scene_file_beside(const char *file, const char *beside, char path[PATH_MAX], gg_error *err);
-
-/* speed_table.c: append a row to a table of the normal speed; append the rows of a file, two columns separated by
+/* Append a row to a table of the normal speed; append the rows of a file, two columns separated by
  * blanks or a comma, without lines that begin with # and a first line of words. */
 gg_status gg_scene_speed_table_add(double speed, double value, char text[GG_LAWS_TEXT], gg_error *err);
 gg_status gg_scene_speed_table_read(const char *file, const char *beside, char text[GG_LAWS_TEXT], gg_error *err);

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/memory.h"
 #include "scene/scene_reader.h"
@@ -30,6 +31,17 @@ static gg_status read_rows(FILE *in, const char *path, char text[GG_LAWS_TEXT], 
     GG_TRY(gg_scene_speed_table_add(speed, value, text, err));
   }
   return *text ? GG_OK : GG_REFUSE(err, "%s: the table has no row", path);
+}
+
+gg_status gg_scene_file_beside(const char *file, const char *beside, char path[PATH_MAX], gg_error *err)
+{
+  struct stat about;
+  const char *slash = beside && *file != '/' ? strrchr(beside, '/') : NULL;
+  if (snprintf(path, PATH_MAX, "%.*s%s", slash ? (int)(slash - beside) + 1 : 0, slash ? beside : "", file) >= PATH_MAX)
+    return gg_base_fail(err, GG_BAD_FILE, "the path of the file is too long");
+  return stat(path, &about) == 0 && !S_ISREG(about.st_mode)
+             ? gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path)
+             : GG_OK;
 }
 
 gg_status gg_scene_speed_table_read(const char *file, const char *beside, char text[GG_LAWS_TEXT], gg_error *err)
