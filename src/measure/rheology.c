@@ -17,8 +17,8 @@ typedef struct memory {
   double last_temperature; /* at the previous sample, engine's scale */
   double log2_scale;       /* engine's velocities are 2^this times those of the start: in the end beyond all doubles */
   double mean_spin[GG_MAX_SPECIES][3];
-  double energy, momentum[2]; /* of all grains; m c_x and m c_y, between walls */
-  double drag;                /* power of drag at the previous sample */
+  double energy, momentum[2];         /* of all grains; m c_x and m c_y, between walls */
+  gg_dragged dragged[GG_MAX_SPECIES]; /* at the previous sample */
   double density_waves, momentum_waves;
   uint64_t samples;
 } memory;
@@ -238,12 +238,13 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
 }
 
 /* The balance has the power of drag at the sample; that of the interval is, by the trapezoidal rule, half its change
- * less. In a steady window changes cancel; in a gas that cools or heats they do not. */
+ * less. In a steady window changes cancel; in a gas that cools or heats they do not. Both ends have the coefficients of
+ * the present model, which a protocol may have changed at the previous sample. */
 static void put_drag(rheology *r, const gg_interval *in, double *row)
 {
-  const double drag = gg_measure_rheology_drag(row, r->model), f = in->velocity_factor;
-  if (in->elapsed > 0) row[CH_GROWTH] -= (drag - f * f * r->memory.drag) / 2;
-  r->memory.drag = drag;
+  const double f = in->velocity_factor, before = f * f * gg_measure_rheology_drag(r->memory.dragged, r->model);
+  for (int i = 0; i < r->model->n_species; i++) r->memory.dragged[i] = gg_measure_rheology_dragged(row, r->model, i);
+  if (in->elapsed > 0) row[CH_GROWTH] -= (gg_measure_rheology_drag(r->memory.dragged, r->model) - before) / 2;
 }
 
 static void put_waves(rheology *r, double *row)

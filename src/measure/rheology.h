@@ -61,8 +61,13 @@ static inline size_t gg_rheology_species_width(const gg_model *m)
   return m->rule == GG_SMOOTH ? CH_SMOOTH_WIDTH : CH_ROUGH_WIDTH;
 }
 
-/* Power of drag on the grains of a row, or of means of rows, per volume. */
-double gg_measure_rheology_drag(const double *row, const gg_model *m);
+/* Motion of a species that drag brakes: partial temperature, <s^2> and mean spin; of a row, or of means of rows. */
+typedef struct gg_dragged {
+  double temperature, spin_squared, mean_spin;
+} gg_dragged;
+gg_dragged gg_measure_rheology_dragged(const double *row, const gg_model *m, int species);
+/* Power of drag on all species, per volume. */
+double gg_measure_rheology_drag(const gg_dragged *of_species, const gg_model *m);
 
 extern const gg_derived gg_measure_rheology_derived[];
 extern const gg_derived gg_measure_rheology_history[];

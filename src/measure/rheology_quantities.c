@@ -163,15 +163,24 @@ static double power_of_noise(const gg_model *m)
   return sum * m->density * m->stress_unit;
 }
 
-double gg_measure_rheology_drag(const double *a, const gg_model *m)
+gg_dragged gg_measure_rheology_dragged(const double *a, const gg_model *m, int i)
+{
+  gg_dragged d = {.temperature = partial_temperature(a, m, i)};
+  if (m->rule == GG_SMOOTH) return d;
+  d.spin_squared = (of(a, m, i, CH_W2X) + of(a, m, i, CH_W2Y) + of(a, m, i, CH_W2Z)) * given_back(m, i);
+  d.mean_spin = of(a, m, i, CH_SPIN_Z);
+  return d;
+}
+
+double gg_measure_rheology_drag(const gg_dragged *d, const gg_model *m)
 {
   double sum = 0;
   for (int i = 0; i < m->n_species && m->bath.on; i++) {
-    sum += 3 * share(m, i) * m->bath.drag[i] * partial_temperature(a, m, i);
+    sum += 3 * share(m, i) * m->bath.drag[i] * d[i].temperature;
     if (m->rule == GG_SMOOTH || m->bath.spin_drag[i] == 0) continue;
-    const double w2 = (of(a, m, i, CH_W2X) + of(a, m, i, CH_W2Y) + of(a, m, i, CH_W2Z)) * given_back(m, i);
-    const double mean = of(a, m, i, CH_SPIN_Z), ahead = mean - gg_model_rolling(m, i);
-    sum += share(m, i) * m->bath.spin_drag[i] * m->inertia[i] * m->mass[i] * (w2 + mean * ahead);
+    const double ahead = d[i].mean_spin - gg_model_rolling(m, i);
+    sum +=
+        share(m, i) * m->bath.spin_drag[i] * m->inertia[i] * m->mass[i] * (d[i].spin_squared + d[i].mean_spin * ahead);
   }
   return sum * m->density * m->stress_unit;
 }
@@ -184,7 +193,9 @@ static double energy_balance(const double *a, const gg_model *m)
   double work = m->walled  ? a[CH_WALL_WORK]
                 : m->frame ? a[CH_WALL_WORK] - a[CH_PC_YX] * m->shear_rate
                            : -total_yx(a, m) * m->shear_rate;
-  work += power_of_noise(m) - gg_measure_rheology_drag(a, m) + power_of_torques(a, m) + a[CH_GIVEN];
+  gg_dragged dragged[GG_MAX_SPECIES];
+  for (int i = 0; i < m->n_species; i++) dragged[i] = gg_measure_rheology_dragged(a, m, i);
+  work += power_of_noise(m) - gg_measure_rheology_drag(dragged, m) + power_of_torques(a, m) + a[CH_GIVEN];
   if (gg_model_has_thermal_walls(m)) return (work - a[CH_WALL_LOSS] - a[CH_GROWTH]) / a[CH_LOSS];
   return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }

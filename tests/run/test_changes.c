@@ -11,7 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "graingas.h"
+
 #include "run/replica.h"
+#include "run/run.h"
 #include "run/series_means.h"
 #include "scene/fields.h"
 #include "scene/scene_reader.h"
@@ -219,9 +222,30 @@ static void as_from_the_start(void **state)
       fail_msg("%s was measured in no scene", gg_measure_observables[i]->name);
 }
 
+/* A run that ends within the first sample after a change of the drag has the energy balanced with the new one. */
+static void energy_is_balanced_after_a_change_of_drag(void **state)
+{
+  (void)state;
+  static const char yaml[] = "{flow: hss, phi: 0.1, particles: 1000, collision: {e: 0.8}, thermostat: bath, "
+                             "bath: {drag: 0.1, temperature: 1}, dsmc: {particles: 50000}, run: {duration: 5, seed: 3, "
+                             "replicas: 8}, protocol: [{at: 4.95, bath.drag: 1}]}";
+  gg_scene scene = gg_scene_defaults();
+  gg_error err = {0};
+  gg_result *r = NULL;
+  expect_ok(gg_scene_read(&scene, yaml, strlen(yaml), "test", &err), yaml, &err);
+  scene.engine = GG_DSMC;
+  expect_ok(gg_scene_finish(&scene, &err), yaml, &err);
+  expect_ok(gg_run_scene(&scene, NULL, 1, NULL, &r, &err), yaml, &err);
+  const gg_estimate *balance = &r->value[GG_Q_ENERGY_BALANCE];
+  print_message("# energy balance %.4f +- %.4f\n", balance->mean, balance->error);
+  assert_true(balance->error < 0.2 && fabs(balance->mean - 1) < 4 * balance->error);
+  gg_result_free(r);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(energy_is_balanced_after_a_change_of_drag),
       cmocka_unit_test(as_from_the_start),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
