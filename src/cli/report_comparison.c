@@ -259,12 +259,12 @@ static void print_numerical_error(const gg_comparison *c, const char *theory)
 {
   double most = 0;
   gg_comparison_row row;
-  char text[300], worst[64] = "", zero[100] = "";
+  char text[300], worst[64] = "", zero[200] = "";
   for (size_t i = 0; gg_comparison_at(c, i, &row, NULL) == GG_OK; i++) {
     double error = NAN;
     gg_comparison_theory_error(c, theory, row.name, &error, NULL);
     const double relative = error / fabs(value_of(c, theory, row.name, NULL));
-    if (relative >= 1) snprintf(zero, sizeof zero, " %s is 0 to %.1g.", row.name, error);
+    if (relative >= 1) gg_cli_append(zero, sizeof zero, " %s is 0 to %.1g.", row.name, error);
     if (relative < 1 && relative > most) most = relative, snprintf(worst, sizeof worst, "%s", row.name);
   }
   if (!*worst) return;
