@@ -19,7 +19,7 @@
 #include "io/atomic_file.h"
 #include "run/run.h"
 
-/* Nothing that includes this needs HDF5: the page of a browser is built without (web/engine/without_hdf5.c). */
+/* Nothing that includes this needs HDF5: the page of a browser is built without. */
 typedef struct gg_result_file {
   gg_atomic_file file;
   const char *command;   /* the command line, for the record */
