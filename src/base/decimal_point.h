@@ -32,6 +32,9 @@ int gg_base_vasprintf(char **text, const char *format, va_list args) GG_FORMATS(
 int gg_base_sscanf(const char *text, const char *format, ...) __attribute__((format(scanf, 2, 3)));
 double gg_base_strtod(const char *text, char **end);
 
+#undef snprintf /* glibc has macros of these where the compiler is clang and _FORTIFY_SOURCE is set */
+#undef fprintf
+#undef asprintf
 #define snprintf gg_base_snprintf
 #define vsnprintf gg_base_vsnprintf
 #define fprintf gg_base_fprintf
