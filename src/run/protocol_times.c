@@ -9,7 +9,6 @@
 #include "run/run.h"
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
-#include "theory/near_steady.h"
 #include "theory/relaxation.h"
 
 enum { INTERVALS = 100 };
@@ -63,23 +62,6 @@ bool gg_run_protocol_is_forward(const gg_scene *s)
     forward = gg_scene_protocol_apply(s, n, &then, NULL) != GG_OK || then.shear.rate > 0;
   }
   return forward;
-}
-
-gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const gg_stop *stop, gg_model *model,
-                            gg_error *err)
-{
-  if (made)
-    *model = *made;
-  else
-    GG_TRY(gg_scene_model_make(scene, scene->engine, model, err));
-  model->stop = stop;
-  /* Start near the steady state of the rate that is the unit, if the shear rests, is reversed or changes. */
-  const double rate = model->shear_rate;
-  if (gg_model_is_sheared(model) && (rate <= 0 || gg_scene_shear_steps(scene) > 0)) model->shear_rate = 1;
-  if (scene->start.temperature == GG_AUTO) GG_TRY(gg_theory_start_near_steady(model, err));
-  model->shear_rate = rate;
-  gg_scene_model_set_ratio(scene, model);
-  return GG_OK;
 }
 
 static gg_status make_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed, gg_error *err)

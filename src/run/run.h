@@ -42,7 +42,7 @@ typedef struct gg_run_callbacks {
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_run_callbacks *callbacks,
                        gg_result **result, gg_error *err);
 
-/* protocol_times.c: the model of a run of the scene's engine, `made` or made here (NULL), with the temperature that it
+/* start_model.c: the model of a run of the scene's engine, `made` or made here (NULL), with the temperature that it
  * starts from. */
 gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const gg_stop *stop, gg_model *model,
                             gg_error *err);
