@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: what is measured after a change of the protocol is what a run of the changed scene measures from the same
  * grains on, to the last bit. Every observable, every kind of change, both engines. The reference is a replica that was
- * created for the changed scene, and gets a copy of the engine just after the change. */
+ * created for the changed scene, and gets a copy of the engine just after the change. Energy is balanced across it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
