@@ -171,7 +171,6 @@ GG_INLINE gg_vd gg_about_inverse(gg_vd x)
 #else
   gg_vd y = (gg_vd)(0x7fde623822fc16e6 - (gg_vi)x);
   y *= 2 - x * y;
-  y *= 2 - x * y;
   return y * (2 - x * y);
 #endif
 }
