@@ -4,12 +4,12 @@
 #define GG_VELOCITY_MOMENTS_H
 
 #include "common/engine.h"
+#include "simd/dispatch.h"
 
 /* Number of lanes of the sums: eight, independent of the processor's registers, so that every processor has the same
  * bits. */
 enum { GG_VELOCITY_MOMENT_LANES = 8 };
-typedef double gg_velocity_moment_lanes
-    __attribute__((vector_size(GG_VELOCITY_MOMENT_LANES * sizeof(double)), aligned(8), may_alias));
+typedef double gg_velocity_moment_lanes[GG_VELOCITY_MOMENT_LANES];
 typedef struct gg_velocity_moment_sums {
   gg_velocity_moment_lanes cc[3], cxcy, c4[3], cccc, speed;
   gg_velocity_moment_lanes w[3], ww[3], w3[3], w4[3], cos2, ccww, cwcw, ccw[3], cwc[3], cxcz, cycz;
@@ -40,6 +40,9 @@ typedef struct gg_velocity_moment_view {
 /* Add grains; spins are taken about m->mean_spin, any guess of their mean. `quick`: each |C| is rounded to single
  * precision, whose range C.C must be in; otherwise roots would cost as much as all other sums together. */
 void gg_measure_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v);
+/* The same with the registers of a set of instructions that this processor has. All sets leave the same bits. */
+void gg_measure_velocity_moments_add_in(gg_instructions set, gg_velocity_moments *m, bool quick,
+                                        const gg_velocity_moment_view *v);
 /* After the last grain: mean_spin becomes the mean of the spins, and the powers of Omega are about it. */
 void gg_measure_velocity_moments_centre(gg_velocity_moments *m);
 

@@ -12,7 +12,9 @@
 
 #include "common/rng.h"
 #include "measure/rheology.h"
+#include "measure/velocity_moments.h"
 #include "scene/model_of_scene.h"
+#include "simd/levels.h"
 
 enum { N = 500 };
 static double cx[N], cy[N], cz[N], sx[N], sy[N], sz[N];
@@ -308,6 +310,27 @@ static void viscosity_at_no_shear(void **state)
 }
 
 /* Quantities that a scene does not have, and only those, have a reason. */
+/* Registers of every width leave the bits of the narrowest, also with a last group that is not full. */
+static void moments_have_the_same_bits_in_all_sets(void **state)
+{
+  (void)state;
+  const bool here[GG_INSTRUCTION_SETS] = {[GG_AVX2] = gg_has_avx2(), [GG_AVX512] = gg_has_avx512()};
+  plant(7);
+  for (size_t n = 0; n < 20; n++)
+    for (int kind_of = 0; kind_of < 4; kind_of++) {
+      const bool quick = kind_of & 1, spins = kind_of & 2;
+      const gg_velocity_moment_view v = {n, GG_VELOCITY_MOMENT_LANES, 0.3, {cx, cy, cz}, {spins ? sx : NULL, sy, sz}};
+      gg_velocity_moments plain = {.mean_spin = {0.1, -0.2, 0.3}}, none = plain;
+      gg_measure_velocity_moments_add_in(GG_BASELINE, &plain, quick, &v);
+      for (gg_instructions set = GG_AVX2; set < GG_INSTRUCTION_SETS; set++) {
+        if (!here[set]) continue;
+        gg_velocity_moments m = none;
+        gg_measure_velocity_moments_add_in(set, &m, quick, &v);
+        assert_memory_equal(&m, &plain, sizeof m);
+      }
+    }
+}
+
 static void missing_quantities_have_reasons(void **state)
 {
   (void)state;
@@ -331,6 +354,7 @@ int main(void)
       cmocka_unit_test(two_sizes),
       cmocka_unit_test(path_of_interval),
       cmocka_unit_test(viscosity_at_no_shear),
+      cmocka_unit_test(moments_have_the_same_bits_in_all_sets),
       cmocka_unit_test(missing_quantities_have_reasons),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

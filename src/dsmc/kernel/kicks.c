@@ -42,22 +42,26 @@ GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double s
   for (int part = 0; part < GG_PARTS; part++) all[part] = load(sum, false, 0, part * GG_WIDTH);
   gg_dsmc_lane_rng rng;
   gg_dsmc_lane_rng_load(&rng, lanes);
-  for (size_t b = 0; b < n; b++)
-    for (int part = 0; part < GG_PARTS; part++) {
-      const int at = part * GG_WIDTH;
-      gg_vd x, y, z, spare;
-      gg_dsmc_lane_normal(&rng, part, &x, &y);
-      gg_dsmc_lane_normal(&rng, part, &z, &spare);
-      gg_vd3 v = load(c, single, b, at);
-      v.x = map.factor * v.x + map.size * (map.widening * x + map.lean * y) + map.drift.x;
-      v.y = map.factor * v.y + map.size * y + map.drift.y;
-      v.z = map.factor * v.z + map.size * z + map.drift.z;
-      v = store(c, single, b, at, v);
-      all[part] = (gg_vd3){all[part].x + v.x, all[part].y + v.y, all[part].z + v.z};
-      if (!speed_bound) continue;
-      v.x -= strain * v.y;
-      gg_dsmc_set_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
+  for (size_t b = 0; b < n; b++) {
+    gg_vd fastest = gg_all(0);
+    for (int first = 0; first < GG_PARTS; first += GG_NORMAL_PARTS) {
+      gg_vd one[GG_NORMALS], other[GG_NORMALS];
+      gg_dsmc_lane_normals(&rng, first, one, other);
+      for (int i = 0; i < GG_NORMAL_PARTS; i++) {
+        const int part = first + i, at = part * GG_WIDTH;
+        const gg_vd x = one[2 * i], y = other[2 * i], z = one[2 * i + 1];
+        gg_vd3 v = load(c, single, b, at);
+        v.x = map.factor * v.x + map.size * (map.widening * x + map.lean * y) + map.drift.x;
+        v.y = map.factor * v.y + map.size * y + map.drift.y;
+        v.z = map.factor * v.z + map.size * z + map.drift.z;
+        v = store(c, single, b, at, v);
+        all[part] = (gg_vd3){all[part].x + v.x, all[part].y + v.y, all[part].z + v.z};
+        v.x -= strain * v.y;
+        fastest = gg_larger(fastest, gg_vd3_dot(v, v));
+      }
     }
+    if (speed_bound) gg_dsmc_set_speed_bound(&speed_bound[b], 0, fastest, per_scale);
+  }
   for (int part = 0; part < GG_PARTS; part++) store(sum, false, 0, part * GG_WIDTH, all[part]);
   gg_dsmc_lane_rng_save(&rng, lanes);
 }
