@@ -22,8 +22,4 @@ static inline int gg_panels(int panel, int n)
  */
 void gg_simd_multiply(int many, const double *left, int lefts, const double *right, int rights, double *C, int stride);
 
-/* Rows row[0] .. row[n - 1] become their combinations sum_c turn[r][c] row[c], n <= GG_MOST_TURNED. */
-enum { GG_MOST_TURNED = 16 };
-void gg_simd_combine(double *const row[], int n, const double turn[GG_MOST_TURNED][GG_MOST_TURNED], int columns);
-
 #endif

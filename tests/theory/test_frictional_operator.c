@@ -102,23 +102,28 @@ static void turns_and_returns(void **state)
   (void)state;
   enum { DEGREE = 5 };
   gg_rough_functions f;
+  gg_rough_turn turn;
   gg_error err;
   assert_int_equal(gg_rough_functions_make(&f, DEGREE, &err), GG_OK);
+  assert_int_equal(gg_rough_turn_make(&turn, &f, &err), GG_OK);
   const gg_rough_gas gas = gas_of(0.8, 0.3, 0.2, 0.5);
   const double k[3] = {0.48, 0.6, 0.64};
   const gg_rough_frame frame = gg_rough_frame_of(&gas, &skewed, k);
   double back[GG_ROUGH_AXES][GG_ROUGH_AXES], *x = calloc((size_t)f.n, sizeof *x);
   for (int i = 0; i < 36; i++) back[i / 6][i % 6] = frame.Y[i % 6][i / 6];
   for (int q = 0; q < f.n; q++) x[q] = sin(q + 1.);
-  gg_rough_turn(&f, frame.Y, x, 1);
+  gg_rough_turn_set(&turn, frame.Y);
+  gg_rough_turn_rows(&turn, x, 1);
   for (int z = 0; z < GG_ROUGH_AXES; z++) {
     double expected = 0;
     for (int y = 0; y < GG_ROUGH_AXES; y++) expected += frame.Y[y][z] * sin(f.up[0][y] + 1.);
     assert_close(x[f.up[0][z]], expected, 1e-12);
   }
-  gg_rough_turn(&f, (const double(*)[GG_ROUGH_AXES])back, x, 1);
+  gg_rough_turn_set(&turn, (const double(*)[GG_ROUGH_AXES])back);
+  gg_rough_turn_rows(&turn, x, 1);
   for (int q = 0; q < f.n; q++) assert_true(fabs(x[q] - sin(q + 1.)) < 1e-12);
   free(x);
+  gg_rough_turn_clear(&turn);
   gg_rough_functions_clear(&f);
 }
 

@@ -55,7 +55,7 @@ ROOMS = {
         src/theory/hermite/streaming.c src/theory/hermite/sums.c src/theory/hermite/viscosity.c"""),
     "theory/rough": (8, """
         src/theory/rough/rough_answer.c src/theory/rough/rough_collision.c src/theory/rough/eight_directions.c src/theory/rough/factors.c
-        src/theory/rough/functions.c src/theory/rough/distribution.c src/theory/rough/friction.c src/theory/rough/friction_points.c src/theory/rough/turn.c src/theory/rough/rough_pairs.c src/theory/rough/relative.c src/theory/rough/rough_state.c
+        src/theory/rough/functions.c src/theory/rough/distribution.c src/theory/rough/friction.c src/theory/rough/friction_averages.c src/theory/rough/friction_points.c src/theory/rough/turn.c src/theory/rough/rough_pairs.c src/theory/rough/relative.c src/theory/rough/rough_state.c
         src/theory/rough/steady.c"""),
 }
 

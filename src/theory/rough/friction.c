@@ -6,24 +6,35 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "simd/matrix.h"
-#include "theory/rough/friction_points.h"
+#include "common/vec.h"
+#include "simd/clones.h"
+#include "theory/rough/friction_averages.h"
 #include "theory/rough/turn.h"
 
-/* Points that a product of matrices takes at once. Rows beside those of the functions: the rate, and J. */
-enum { BATCH = 128, MORE_ROWS = 4, SIDE = GG_ROUGH_MOST_DEGREE + 1 };
+/* Rows beside those of the functions: the rate, and J. Rows that are turned at a time. */
+enum { MORE_ROWS = 4, PANEL = 16, CLASSES = 4 };
 
 struct gg_rough_friction {
   const gg_rough_functions *f;
-  gg_rough_rays *rays;
-  double *left, *right; /* functions at the points of a batch: after the collision less before, and before */
-  double *T;            /* n + MORE_ROWS rows, in whole panels */
-  int lefts, rights;    /* panels */
+  gg_rough_averages averages;
+  gg_rough_turn turn;
   bool alone;
-  double *W;             /* n x n; NULL: alone */
-  double *more;          /* n x MORE_ROWS: the additional rows as columns */
-  double up[SIDE][SIDE]; /* sqrt(P!/Q!)/(P - Q)! */
+  double *W;                              /* n x n; NULL: alone */
+  double *panel;                          /* n x PANEL */
+  double *more;                           /* n x MORE_ROWS: the additional rows as columns */
+  int *by_class, class_from[CLASSES + 1]; /* functions of equal parities */
 };
+
+static void sort_by_class(gg_rough_friction *x)
+{
+  int n = 0;
+  for (int class = 0; class < CLASSES; class ++) {
+    x->class_from[class] = n;
+    for (int q = 0; q < x->f->n; q++)
+      if (gg_rough_class(x->f->function[q]) == class) x->by_class[n++] = q;
+  }
+  x->class_from[CLASSES] = n;
+}
 
 gg_status gg_rough_friction_make(gg_rough_friction **out, const gg_rough_functions *f, bool alone, gg_error *err)
 {
@@ -31,140 +42,108 @@ gg_status gg_rough_friction_make(gg_rough_friction **out, const gg_rough_functio
   const size_t n = (size_t)f->n, size = sizeof(double);
   if (!x) return gg_base_out_of_memory(err);
   x->f = f, x->alone = alone;
-  x->lefts = gg_panels(GG_LEFT_PANEL, f->n + MORE_ROWS), x->rights = gg_panels(GG_RIGHT_PANEL, f->n3);
-  x->left = calloc((size_t)x->lefts * GG_LEFT_PANEL * BATCH, size);
-  x->right = calloc((size_t)x->rights * GG_RIGHT_PANEL * BATCH, size);
-  x->T = malloc((size_t)x->lefts * GG_LEFT_PANEL * (size_t)x->rights * GG_RIGHT_PANEL * size);
   x->more = malloc(n * MORE_ROWS * size);
+  x->panel = malloc(n * PANEL * size);
+  x->by_class = malloc(n * sizeof *x->by_class);
   if (!alone) x->W = malloc(n * n * size);
-  if (!x->left || !x->right || !x->T || !x->more || (!alone && !x->W)) return gg_base_out_of_memory(err);
-  for (int p = 0; p <= f->degree; p++)
-    for (int q = 0; q <= p; q++) x->up[p][q] = sqrt(tgamma(p + 1.) / tgamma(q + 1.)) / tgamma(p - q + 1.);
-  return gg_rough_rays_make(&x->rays, f->degree, err);
+  if (!x->more || !x->panel || !x->by_class || (!alone && !x->W)) return gg_base_out_of_memory(err);
+  sort_by_class(x);
+  GG_TRY(gg_rough_turn_make(&x->turn, f, err));
+  return gg_rough_averages_make(&x->averages, f, err);
 }
 
 void gg_rough_friction_free(gg_rough_friction *x)
 {
   if (!x) return;
-  gg_rough_rays_free(x->rays);
-  free(x->left);
-  free(x->right);
-  free(x->T);
+  gg_rough_averages_clear(&x->averages);
+  gg_rough_turn_clear(&x->turn);
   free(x->W);
+  free(x->panel);
   free(x->more);
+  free(x->by_class);
   free(x);
 }
 
-/* Products over three coordinates of values of one each, by f->three. */
-static void multiply_three(const gg_rough_functions *f, double one[3][SIDE], double *product)
-{
-  for (int s = 0; s < f->n3; s++) product[s] = one[0][f->three[s][0]] * one[1][f->three[s][1]] * one[2][f->three[s][2]];
-}
-
-static void hermite_three(const gg_rough_functions *f, const double y[3], double *value)
-{
-  double one[3][SIDE];
-  for (int i = 0; i < 3; i++) {
-    one[i][0] = 1, one[i][1] = y[i];
-    for (int k = 1; k < f->degree; k++) one[i][k + 1] = (y[i] * one[i][k] - sqrt(k) * one[i][k - 1]) / sqrt(k + 1);
-  }
-  multiply_three(f, one, value);
-}
-
-static void powers_three(const gg_rough_functions *f, const double y[3], double *value)
-{
-  double one[3][SIDE];
-  for (int i = 0; i < 3; i++) {
-    one[i][0] = 1;
-    for (int k = 0; k < f->degree; k++) one[i][k + 1] = y[i] * one[i][k];
-  }
-  multiply_three(f, one, value);
-}
-
-static void set_point(gg_rough_friction *x, const gg_rough_point *p, int k, int many)
+/* Turn T/sqrt(l!) to z, as the columns (b, 0) of W. */
+static void turn_averages(const gg_rough_friction *x, double *W)
 {
   const gg_rough_functions *f = x->f;
-  double before[GG_ROUGH_MOST_THREE], after[GG_ROUGH_MOST_THREE], shift[GG_ROUGH_MOST_THREE];
-  hermite_three(f, p->y, before);
-  hermite_three(f, p->after, after);
-  powers_three(f, p->shift, shift);
-  for (int s = 0; s < f->n3; s++) x->right[gg_panel_place(GG_RIGHT_PANEL, many, s, k)] = p->weight * before[s];
-  int row = 0;
-  for (int s = 0; s < f->n3; s++)
-    for (int v = 0; v < f->from[s + 1] - f->from[s]; v++, row++)
-      x->left[gg_panel_place(GG_LEFT_PANEL, many, row, k)] = after[v] * shift[s] - (s == 0 ? before[v] : 0);
-  for (int i = 0; i < MORE_ROWS; i++)
-    x->left[gg_panel_place(GG_LEFT_PANEL, many, row + i, k)] = i == 0 ? 1 : p->J[i - 1];
+  const size_t stride = (size_t)x->averages.stride;
+  double *T = x->averages.T;
+  for (int l = 0; l < f->n3; l++) {
+    const int *r = f->three[l];
+    const double root = sqrt(tgamma(r[0] + 1.) * tgamma(r[1] + 1.) * tgamma(r[2] + 1.));
+    for (size_t i = (size_t)f->from[l] * stride; i < (size_t)f->from[l + 1] * stride; i++) T[i] /= root;
+  }
+  gg_rough_turn_rows(&x->turn, T, x->averages.stride);
+  for (int R = 0; R < f->n; R++)
+    memcpy(W + (size_t)R * (size_t)f->n, T + (size_t)R * stride, (size_t)f->n3 * sizeof *W);
 }
 
-static void make_T(gg_rough_friction *x, const gg_rough_point *point, int n)
+/* to = sum_i factor_i of_i */
+GG_INLINE void combine_six(int n, const double factor[GG_ROUGH_AXES], const double *const of[GG_ROUGH_AXES],
+                           double *restrict to)
 {
-  const int stride = x->rights * GG_RIGHT_PANEL;
-  memset(x->T, 0, (size_t)x->lefts * GG_LEFT_PANEL * (size_t)stride * sizeof *x->T);
-  for (int at = 0; at < n; at += BATCH) {
-    const int many = n - at < BATCH ? n - at : BATCH;
-    for (int k = 0; k < many; k++) set_point(x, &point[at + k], k, many);
-    gg_simd_multiply(many, x->left, x->lefts, x->right, x->rights, x->T, stride);
+  for (int b = 0; b < n; b++) {
+    double sum = factor[0] * of[0][b];
+    for (int i = 1; i < GG_ROUGH_AXES; i++) sum += factor[i] * of[i][b];
+    to[b] = sum;
   }
 }
 
-/* A row of W, of velocity index `a` and spin index P. */
-static void make_row(const gg_rough_friction *x, const int *a, const int *P, double *W)
+/* The other columns: those of (b, Q) are those of (b, Q - 1) after a creation operator of y4, y5 or y6, over sqrt(Q),
+ * which is a sum of creation operators of z. */
+GG_CLONES static void raise_columns(const gg_rough_functions *f, const double Y[GG_ROUGH_AXES][GG_ROUGH_AXES],
+                                    double *W)
 {
-  const gg_rough_functions *f = x->f;
-  const int stride = x->rights * GG_RIGHT_PANEL;
-  memset(W, 0, (size_t)f->n * sizeof *W);
-  for (int q0 = 0; q0 <= P[0]; q0++)
-    for (int q1 = 0; q1 <= P[1]; q1++)
-      for (int q2 = 0; q2 <= P[2]; q2++) {
-        const int source[GG_ROUGH_AXES] = {a[0], a[1], a[2], P[0] - q0, P[1] - q1, P[2] - q2};
-        const int Q[GG_ROUGH_AXES] = {0, 0, 0, q0, q1, q2}, first = gg_rough_place(f, Q);
-        const double up = x->up[P[0]][q0] * x->up[P[1]][q1] * x->up[P[2]][q2];
-        const double *T = x->T + (size_t)gg_rough_place(f, source) * (size_t)stride;
-        for (int b = 0; b < gg_rough_count3(f->degree - q0 - q1 - q2); b++) W[first + b] = up * T[b];
-      }
-}
-
-static void make_W(const gg_rough_friction *x, double *W)
-{
-  const gg_rough_functions *f = x->f;
-  for (int R = 0; R < f->n; R++) make_row(x, f->function[R].r, f->function[R].r + 3, W + (size_t)R * (size_t)f->n);
-}
-
-static void transpose(int n, double *W)
-{
-  enum { TILE = 16 };
-  for (int i = 0; i < n; i += TILE)
-    for (int j = i; j < n; j += TILE)
-      for (int r = i; r < n && r < i + TILE; r++)
-        for (int c = j > r ? j : r + 1; c < n && c < j + TILE; c++) {
-          double *one = W + (size_t)r * (size_t)n + c, *two = W + (size_t)c * (size_t)n + r, kept = *one;
-          *one = *two, *two = kept;
-        }
-}
-
-/* Elements between functions of different parities cancel between the quarters of the sphere. */
-static void add_W(const gg_rough_friction *x, double solid_angle, const double *W, double *to)
-{
-  const gg_rough_functions *f = x->f;
+  const size_t n = (size_t)f->n;
   for (int R = 0; R < f->n; R++) {
-    const int class = gg_rough_class(f->function[R]);
-    for (int S = 0; S < f->n; S++, W++, to++) {
-      const double before = x->alone ? 0 : *to;
-      *to = gg_rough_class(f->function[S]) == class ? before + solid_angle * *W : before;
+    double factor[3][GG_ROUGH_AXES];
+    const double *below[GG_ROUGH_AXES], *of[GG_ROUGH_AXES];
+    for (int i = 0; i < GG_ROUGH_AXES; i++) {
+      const int r = f->function[R].r[i];
+      below[i] = W + (size_t)(r > 0 ? f->down[R][i] : 0) * n; /* row 0 is 0: the number of grains stays */
+      for (int j = 0; j < 3; j++) factor[j][i] = Y[3 + j][i] * sqrt(r);
+    }
+    for (int Q = 1; Q < f->n3; Q++) {
+      const int *q = f->three[Q], j = q[0] > 0 ? 0 : q[1] > 0 ? 1 : 2;
+      double over[GG_ROUGH_AXES];
+      for (int i = 0; i < GG_ROUGH_AXES; i++) {
+        over[i] = factor[j][i] / sqrt(q[j]);
+        of[i] = below[i] + f->down[f->from[Q]][3 + j];
+      }
+      combine_six(f->from[Q + 1] - f->from[Q], over, of, W + (size_t)R * n + f->from[Q]);
     }
   }
 }
 
-static void add_more(gg_rough_friction *x, const gg_rough_frame *frame, const double k[3], double solid_angle,
-                     gg_rough_sums *sums)
+/* Turn the columns of some rows of W, from `first` on, and add those of equal parities: others cancel between the
+ * quarters of the sphere. In `alone`, the rows become their own sum. Few rows at a time stay in the cache. */
+static void add_rows(const gg_rough_friction *x, double solid_angle, int first, double *W, double *to)
 {
   const gg_rough_functions *f = x->f;
-  const double *T = x->T + (size_t)f->n * (size_t)(x->rights * GG_RIGHT_PANEL);
+  const int n = f->n, rows = n - first < PANEL ? n - first : PANEL;
+  for (int S = 0; S < n; S++)
+    for (int r = 0; r < PANEL; r++)
+      x->panel[S * PANEL + r] = r < rows ? W[(size_t)(first + r) * (size_t)n + (size_t)S] : 0;
+  gg_rough_turn_rows(&x->turn, x->panel, PANEL);
+  for (int r = 0; r < rows; r++) {
+    double *sum = to + (size_t)(first + r) * (size_t)n;
+    const int class = gg_rough_class(f->function[first + r]);
+    if (x->alone) memset(sum, 0, (size_t)n * sizeof *sum);
+    for (int i = x->class_from[class]; i < x->class_from[class + 1]; i++)
+      sum[x->by_class[i]] += solid_angle * x->panel[x->by_class[i] * PANEL + r];
+  }
+}
+
+static void add_more(gg_rough_friction *x, const double k[3], double solid_angle, gg_rough_sums *sums)
+{
+  const gg_rough_functions *f = x->f;
   memset(x->more, 0, (size_t)f->n * MORE_ROWS * sizeof *x->more);
   for (int b = 0; b < f->n3; b++)
-    for (int i = 0; i < MORE_ROWS; i++) x->more[b * MORE_ROWS + i] = T[i * x->rights * GG_RIGHT_PANEL + b];
-  gg_rough_turn(f, frame->Y, x->more, MORE_ROWS);
+    for (int i = 0; i < MORE_ROWS; i++)
+      x->more[b * MORE_ROWS + i] = i == 0 ? x->averages.rate[b] : x->averages.J[i - 1][b];
+  gg_rough_turn_rows(&x->turn, x->more, MORE_ROWS);
   for (int S = 0; S < f->n; S++) {
     const double *more = x->more + (size_t)S * MORE_ROWS;
     sums->rate[S] += solid_angle * more[0];
@@ -177,16 +156,12 @@ gg_status gg_rough_friction_add(gg_rough_friction *x, const gg_rough_gas *gas, c
 {
   const gg_rough_frame frame = gg_rough_frame_of(gas, weight, k);
   double *W = x->alone ? sums->W : x->W;
-  int n;
-  const gg_rough_point *point = gg_rough_rays_points(x->rays, &frame, &n);
-  if (n == 0) return gg_base_fail(err, GG_FAILED, "the gas is too cold beside the shear for the integrals of friction");
-  make_T(x, point, n);
-  make_W(x, W);
-  gg_rough_turn(x->f, frame.Y, W, x->f->n);
-  transpose(x->f->n, W);
-  gg_rough_turn(x->f, frame.Y, W, x->f->n);
-  transpose(x->f->n, W);
-  add_W(x, solid_angle, W, sums->W);
-  add_more(x, &frame, k, solid_angle, sums);
+  if (!gg_rough_averages_at(&x->averages, &frame))
+    return gg_base_fail(err, GG_FAILED, "the gas is too cold beside the shear for the integrals of friction");
+  gg_rough_turn_set(&x->turn, frame.Y);
+  turn_averages(x, W);
+  raise_columns(x->f, frame.Y, W);
+  for (int R = 0; R < x->f->n; R += PANEL) add_rows(x, solid_angle, R, W, sums->W);
+  add_more(x, k, solid_angle, sums);
   return gg_stop_check(gas->stop, err);
 }

@@ -17,8 +17,9 @@ static const double farthest = 10;
 static const double fastest = 10;
 
 struct gg_rough_rays {
-  int degree, azimuths, most;
-  gg_rough_point *point;
+  int degree, azimuths;
+  gg_rough_point *stick, *slides;
+  gg_rough_slide *slide; /* by azimuth */
   gsl_integration_glfixed_table *discrete;
   gsl_eigen_symmv_workspace *eigen;
   gsl_matrix *jacobi, *vectors;
@@ -108,6 +109,17 @@ gg_rough_frame gg_rough_frame_of(const gg_rough_gas *gas, const gg_rough_weight 
   return x;
 }
 
+/* Points in psi on either side of the angle at which contacts begin to slide, by the part of pi/2 that the side has. */
+static int polar_points(int degree, double part)
+{
+  return 4 + (int)((degree + 6) * part + 0.5);
+}
+
+static int most_polar(int degree)
+{
+  return polar_points(degree, 1);
+}
+
 gg_status gg_rough_rays_make(gg_rough_rays **out, int degree, gg_error *err)
 {
   gg_rough_rays *x = *out = calloc(1, sizeof *x);
@@ -115,14 +127,16 @@ gg_status gg_rough_rays_make(gg_rough_rays **out, int degree, gg_error *err)
   const size_t n = (size_t)degree + 1;
   x->degree = degree;
   x->azimuths = 2 * degree + 6 > FEWEST_AZIMUTHS ? 2 * degree + 6 : FEWEST_AZIMUTHS;
-  x->most = x->azimuths * (2 * 4 + degree + 6 + 2) * (degree + 1);
-  x->point = malloc((size_t)x->most * sizeof *x->point);
+  const size_t most = (size_t)x->azimuths * (size_t)most_polar(degree) * n;
+  x->stick = malloc(most * sizeof *x->stick);
+  x->slides = malloc(most * sizeof *x->slides);
+  x->slide = malloc((size_t)x->azimuths * sizeof *x->slide);
   x->discrete = gsl_integration_glfixed_table_alloc(DISCRETE);
   x->eigen = gsl_eigen_symmv_alloc(n);
   x->jacobi = gsl_matrix_alloc(n, n);
   x->vectors = gsl_matrix_alloc(n, n);
   x->values = gsl_vector_alloc(n);
-  if (!x->point || !x->discrete || !x->eigen || !x->jacobi || !x->vectors || !x->values)
+  if (!x->stick || !x->slides || !x->slide || !x->discrete || !x->eigen || !x->jacobi || !x->vectors || !x->values)
     return gg_base_out_of_memory(err);
   return GG_OK;
 }
@@ -130,7 +144,9 @@ gg_status gg_rough_rays_make(gg_rough_rays **out, int degree, gg_error *err)
 void gg_rough_rays_free(gg_rough_rays *x)
 {
   if (!x) return;
-  free(x->point);
+  free(x->stick);
+  free(x->slides);
+  free(x->slide);
   if (x->discrete) gsl_integration_glfixed_table_free(x->discrete);
   if (x->eigen) gsl_eigen_symmv_free(x->eigen);
   if (x->jacobi) gsl_matrix_free(x->jacobi);
@@ -208,56 +224,45 @@ static ray_gauss gauss_of(gg_rough_rays *r, const gg_rough_frame *f)
 static gg_rough_point *add_ray(gg_rough_rays *r, const gg_rough_frame *f, ray_gauss *g, const double v[3],
                                double weight, gg_rough_point *to)
 {
-  const double along = sqrt(v[1] * v[1] + v[2] * v[2]), limit = f->mu * f->eta1 * v[0];
-  const double j = f->eta2 * along <= limit ? f->eta2 : limit / along, J[3] = {f->eta1 * v[0], j * v[1], j * v[2]};
-  double u[3] = {v[0], v[1], v[2]}, step[GG_ROUGH_AXES], A = 0, B = 0;
+  double u[3] = {v[0], v[1], v[2]}, A = 0, B = 0;
   gg_rough_divide(f->R, u);
   for (int i = 0; i < 3; i++) A += u[i] * u[i], B += u[i] * g->y0[i];
-  for (int y = 0; y < GG_ROUGH_AXES; y++) step[y] = f->D[y][0] * J[0] + f->D[y][1] * J[1] + f->D[y][2] * J[2];
   const double b = B / sqrt(A);
   if (b != g->b) make_rule(r, g->b = b, g->x, g->w);
   for (int q = 0; q <= r->degree; q++, to++) {
     const double rho = g->x[q] / sqrt(A);
     to->weight = weight * g->unit * v[0] * g->w[q] / (A * A);
-    for (int i = 0; i < 3; i++) {
-      to->y[i] = rho * u[i] - g->y0[i];
-      to->after[i] = to->y[i] + rho * step[i];
-      to->shift[i] = rho * step[3 + i];
-      to->J[i] = rho * (J[0] * f->axis[0][i] + J[1] * f->axis[1][i] + J[2] * f->axis[2][i]);
-    }
+    to->normal = rho * v[0];
+    for (int i = 0; i < 3; i++) to->y[i] = rho * u[i] - g->y0[i];
   }
   return to;
 }
 
-/* Points in psi on either side of the angle at which contacts begin to slide. */
-static int polar_points(const gg_rough_rays *r, double part)
-{
-  return 4 + (int)((r->degree + 6) * part / M_PI_2 + 0.5);
-}
-
-const gg_rough_point *gg_rough_rays_points(gg_rough_rays *r, const gg_rough_frame *f, int *n)
+gg_rough_points gg_rough_rays_points(gg_rough_rays *r, const gg_rough_frame *f)
 {
   ray_gauss g = gauss_of(r, f);
   const double limit = f->mu * f->eta1 * g.n / f->eta2, middle = atan(limit / sqrt(g.t[0] * g.t[2]));
-  const int many[2] = {polar_points(r, middle), polar_points(r, M_PI_2 - middle)};
-  gg_rough_point *to = r->point;
+  const int many[2] = {polar_points(r->degree, middle / M_PI_2), polar_points(r->degree, 1 - middle / M_PI_2)};
+  gg_rough_point *to[2] = {r->stick, r->slides};
   gsl_integration_glfixed_table *rule[2];
+  int a = 0;
   for (int side = 0; side < 2; side++) rule[side] = gsl_integration_glfixed_table_alloc((size_t)many[side]);
-  for (int a = 0; a < r->azimuths && g.C < fastest && rule[0] && rule[1]; a++) {
+  for (; a < r->azimuths && g.C < fastest && rule[0] && rule[1]; a++) {
     const double alpha = 2 * M_PI * (a + 0.5) / r->azimuths;
-    const double t[2] = {g.t[0] * cos(alpha), g.t[1] * cos(alpha) + g.t[2] * sin(alpha)};
-    const double edge = atan(limit / hypot(t[0], t[1]));
+    const double t[2] = {g.t[0] * cos(alpha), g.t[1] * cos(alpha) + g.t[2] * sin(alpha)}, along = hypot(t[0], t[1]);
+    const double edge = atan(limit / along), slip = f->mu * f->eta1 / along;
+    r->slide[a] = (gg_rough_slide){.J = {f->eta1, slip * t[0], slip * t[1]}, .point = to[1]};
     for (int i = 0; i < many[0] + many[1]; i++) {
       const int side = i >= many[0];
       double psi, w;
       gsl_integration_glfixed_point(side ? edge : 0, side ? M_PI_2 : edge, (size_t)(side ? i - many[0] : i), &psi, &w,
                                     rule[side]);
       const double v[3] = {g.n * cos(psi), sin(psi) * t[0], sin(psi) * t[1]};
-      to = add_ray(r, f, &g, v, w * sin(psi) * 2 * M_PI / r->azimuths, to);
+      to[side] = add_ray(r, f, &g, v, w * sin(psi) * 2 * M_PI / r->azimuths, to[side]);
     }
+    r->slide[a].n = (int)(to[1] - r->slide[a].point);
   }
   for (int side = 0; side < 2; side++)
     if (rule[side]) gsl_integration_glfixed_table_free(rule[side]);
-  *n = (int)(to - r->point);
-  return r->point;
+  return (gg_rough_points){(int)(to[0] - r->stick), a, r->stick, r->slide};
 }

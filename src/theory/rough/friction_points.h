@@ -19,18 +19,31 @@ typedef struct gg_rough_frame {
 gg_rough_frame gg_rough_frame_of(const gg_rough_gas *gas, const gg_rough_weight *weight, const double k[3]);
 
 typedef struct gg_rough_point {
-  double weight;         /* of an average of g_n x function over the Gaussian, g_n > 0 */
-  double y[3], after[3]; /* y1, y2, y3 before and after */
-  double shift[3];       /* of y4, y5, y6 */
-  double J[3];           /* impulse along x, y, z */
+  double weight; /* of an average of g_n x function over the Gaussian, g_n > 0 */
+  double y[3];   /* y1, y2, y3 before the collision */
+  double normal; /* g_n */
 } gg_rough_point;
+
+/* Contacts that slide, at one azimuth: their impulse is g_n times a constant vector. */
+typedef struct gg_rough_slide {
+  double J[3]; /* that vector, along k, t1, t2 */
+  int n;
+  const gg_rough_point *point;
+} gg_rough_slide;
+
+/* Contacts that stick have J = (eta1 g_n, eta2 g_t). */
+typedef struct gg_rough_points {
+  int sticks, azimuths;
+  const gg_rough_point *stick;
+  const gg_rough_slide *slide; /* by azimuth */
+} gg_rough_points;
 
 typedef struct gg_rough_rays gg_rough_rays; /* rules and memory */
 gg_status gg_rough_rays_make(gg_rough_rays **rays, int degree, gg_error *err);
 void gg_rough_rays_free(gg_rough_rays *rays);
 
-/* All points of a direction, and their number; borrowed until the next call. None where the flow across the contact is
- * so fast beside thermal velocities that the azimuths are too few. */
-const gg_rough_point *gg_rough_rays_points(gg_rough_rays *rays, const gg_rough_frame *frame, int *n);
+/* All points of a direction; borrowed until the next call. No azimuths where the flow across the contact is so fast
+ * beside thermal velocities that they are too few. */
+gg_rough_points gg_rough_rays_points(gg_rough_rays *rays, const gg_rough_frame *frame);
 
 #endif

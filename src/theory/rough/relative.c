@@ -167,7 +167,7 @@ static gg_status make(gg_rough_relative *r, const gg_rough_gas *gas, int degree,
   return GG_OK;
 }
 
-/* A coarser rule in azimuth, to 1e-4: a direction with friction takes a hundred times as long. */
+/* A coarser rule in azimuth, to 1e-4: a direction with friction takes much longer. */
 static gg_status add_sphere_of_friction(gg_rough_friction *friction, const gg_rough_gas *gas,
                                         const gg_rough_weight *weight, gg_rough_sums *sums, gg_error *err)
 {

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Averages over the contact velocity g of one direction, for friction.h: sums over the points of friction_points.h.
+ *
+ * Contacts that stick have y' and delta linear in y: Ho_a(y') delta^l is a sum of Ho_c(y), of which < g_n Ho_c Ho_b >
+ * are the averages. Contacts that slide at one azimuth have delta = g_n x a constant vector: all l of one degree have
+ * one average. Both save sums over all points for each of the n functions (a, l). */
+#ifndef GG_ROUGH_FRICTION_AVERAGES_H
+#define GG_ROUGH_FRICTION_AVERAGES_H
+
+#include "theory/rough/friction_points.h"
+
+typedef struct gg_rough_averages {
+  const gg_rough_functions *f;
+  int stride;    /* of rows, by b: whole panels of simd/matrix.h */
+  double *T;     /* n rows (a, l): < g_n [Ho_a(y') delta^l - 1_(l = 0) Ho_a(y)] Ho_b(y) > */
+  double *rate;  /* < g_n Ho_b > */
+  double *J[3];  /* < g_n J_j Ho_b >, along x, y, z */
+  double *G, *Q; /* < g_n Ho_c Ho_b > where contacts stick; < g_n Ho_a(y') g_n^L Ho_b > where they slide */
+  double *left, *right;
+  gg_rough_rays *rays;
+} gg_rough_averages;
+
+gg_status gg_rough_averages_make(gg_rough_averages *x, const gg_rough_functions *f, gg_error *err);
+void gg_rough_averages_clear(gg_rough_averages *x);
+
+/* False if the flow across the contact is too fast beside thermal velocities. */
+bool gg_rough_averages_at(gg_rough_averages *x, const gg_rough_frame *frame);
+
+#endif
