@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Instances of the event loop, by the features of a scene. Each is compiled into an object of its own (instance.c), and
- * instances that predict eight pairs at a time once for every set of instructions. All give the same bits. */
+ * instances that predict a batch of pairs at a time once for every set of instructions. All give the same bits. */
 #ifndef GG_MD_EVENT_LOOPS_H
 #define GG_MD_EVENT_LOOPS_H
 

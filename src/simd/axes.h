@@ -5,6 +5,7 @@
 #ifndef GG_SIMD_AXES_H
 #define GG_SIMD_AXES_H
 
+#include <math.h>
 #include <stdint.h>
 
 #if defined(__AVX2__)
@@ -52,6 +53,15 @@ GG_INLINE gg_indices gg_indices_of(uint32_t bits)
 {
   gg_indices each = {1, 2, 4, 8};
   return ((int32_t)bits & each) != 0;
+}
+
+GG_INLINE gg_axes gg_sqrt_axes(gg_axes x)
+{
+#if defined(__AVX2__)
+  return (gg_axes)_mm256_sqrt_pd((__m256d)x);
+#else
+  return (gg_axes){sqrt(x[0]), sqrt(x[1]), sqrt(x[2]), sqrt(x[3])};
+#endif
 }
 
 GG_INLINE gg_axes gg_nearest_axes(gg_axes x)

@@ -22,6 +22,10 @@ GG_INLINE gg_mask gg_less(gg_vd a, gg_vd b)
 {
   return GG_MM_MASK(cmp)(a, b, _CMP_LT_OQ);
 }
+GG_INLINE gg_mask gg_not_above(gg_vd a, gg_vd b)
+{
+  return GG_MM_MASK(cmp)(a, b, _CMP_LE_OQ);
+}
 GG_INLINE gg_mask gg_and(gg_mask a, gg_mask b)
 {
   return a & b;

@@ -10,6 +10,10 @@ GG_INLINE gg_mask gg_less(gg_vd a, gg_vd b)
 {
   return (gg_mask)(a < b);
 }
+GG_INLINE gg_mask gg_not_above(gg_vd a, gg_vd b)
+{
+  return (gg_mask)(a <= b);
+}
 GG_INLINE gg_mask gg_below_word(gg_vu a, gg_vu b)
 {
   return (gg_mask)(a < b);

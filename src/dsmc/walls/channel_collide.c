@@ -27,7 +27,7 @@
 
 #include "dsmc/kernel/normal.h"
 #include "dsmc/walls/channel.h"
-#include "simd/eight.h"
+#include "simd/batch.h"
 
 enum {
   SUMS = 4,
@@ -132,71 +132,61 @@ typedef struct block {
   uint32_t i[BLOCK], j[BLOCK], home[BLOCK], cell[BLOCK], n; /* grains, and their cells, the second one's plus 1 */
 } __attribute__((aligned(64))) block;
 
-typedef int32_t int32_8 __attribute__((vector_size(32)));
-#define EIGHT(array, k) (*(gg_line *)&(array)[k])
+#define LANES_OF(array, k) (*(gg_vd *)&(array)[k])
 
-/* Eight numbers as registers of lanes. */
-typedef union parts {
-  gg_v8 all;
-  gg_u8 words;
-  gg_vd lanes[GG_BATCH / GG_WIDTH];
-  gg_vq random[GG_BATCH / GG_QUADS];
-} parts;
-
-GG_INLINE gg_u8 next_words(gg_dsmc_lane_rng *rng)
+/* Random words of the batch of candidates from k on. A candidate always has the numbers of the same lane. */
+GG_INLINE gg_vu next_words(gg_dsmc_lane_rng *rng, uint32_t k)
 {
-  parts p;
-  for (int k = 0; k < GG_BATCH / GG_QUADS; k++) p.random[k] = gg_dsmc_lane_next(rng, k);
-  return p.words;
+  return (gg_vu)gg_dsmc_lane_next(rng, (int)(k % GG_DSMC_LANES / GG_WIDTH));
 }
 
 /* The lowest 32 bits as a number in [1, 2). */
-GG_INLINE gg_v8 one_to_two(gg_u8 word)
+GG_INLINE gg_vd one_to_two(gg_vu word)
 {
-  return (gg_v8)((word & UINT32_MAX) << 20 | 0x3ff0000000000000u);
+  return (gg_vd)((word & UINT32_MAX) << 20 | 0x3ff0000000000000u);
 }
 
 /* Half of all azimuths are drawn: up to pi/4 either way, or the same rotated by pi/2 (`other`: odd numbers). */
-GG_INLINE void draw_azimuth(gg_u8 azimuth, gg_u8 other, gg_v8 across, block *b, uint32_t k)
+GG_INLINE void draw_azimuth(gg_vu azimuth, gg_vu other, gg_vd across, block *b, uint32_t k)
 {
-  parts angle = {.all = (one_to_two(azimuth) - 1.5) * M_PI_2}, s, c;
-  for (int l = 0; l < GG_BATCH / GG_WIDTH; l++) gg_dsmc_lane_sincos(angle.lanes[l], &s.lanes[l], &c.lanes[l]);
-  const gg_k8 rotated = gg_odd8((gg_v8)other);
-  EIGHT(b->kx, k) = across * gg_choose8(rotated, s.all, c.all);
-  EIGHT(b->kz, k) = across * gg_choose8(rotated, c.all, s.all);
+  gg_vd s, c;
+  gg_dsmc_lane_sincos((one_to_two(azimuth) - 1.5) * M_PI_2, &s, &c);
+  const gg_mask rotated = gg_low_bit(other);
+  LANES_OF(b->kx, k) = across * gg_select(rotated, s, c);
+  LANES_OF(b->kz, k) = across * gg_select(rotated, c, s);
 }
 
-/* Draw eight directions. |k_y| has the distribution 4/5 k_y up to 1/2 and 1/5 + 4/5 k_y^2 above; its inverse is the
- * smaller of two functions. */
-GG_INLINE void draw_direction(gg_u8 height, gg_u8 azimuth, block *b, uint32_t k)
+/* Draw the directions of a batch. |k_y| has the distribution 4/5 k_y up to 1/2 and 1/5 + 4/5 k_y^2 above; its inverse
+ * is the smaller of two functions. */
+GG_INLINE void draw_direction(gg_vu height, gg_vu azimuth, block *b, uint32_t k)
 {
-  const gg_v8 low = 1.25 * (one_to_two(height) - (1 - 0x1p-33)), h = gg_sqrt8(gg_larger8(low - 0.25, gg_all8(0.25)));
-  const gg_v8 ky = gg_smaller8(low, h);
-  EIGHT(b->ky, k) = (gg_v8)((gg_u8)ky | (height & 0x8000000000000000u));
-  EIGHT(b->h, k) = h;
-  draw_azimuth(azimuth, height >> 32, gg_sqrt8(1 - ky * ky), b, k);
+  const gg_vd low = 1.25 * (one_to_two(height) - (1 - 0x1p-33)), h = gg_sqrt(gg_larger(low - 0.25, gg_all(0.25)));
+  const gg_vd ky = gg_smaller(low, h);
+  LANES_OF(b->ky, k) = (gg_vd)((gg_vu)ky | (height & 0x8000000000000000u));
+  LANES_OF(b->h, k) = h;
+  draw_azimuth(azimuth, height >> 32, gg_sqrt(1 - ky * ky), b, k);
 }
 
 /* Find the cell of the partner. Grains above the last cell of an open top get the empty cell above it. */
 GG_INLINE void find_cells(const gg_dsmc_channel *d, const pass *p, block *b, uint32_t k)
 {
-  gg_v8 y;
-  for (uint32_t l = 0; l < GG_BATCH; l++) y[l] = d->grains.at[b->i[k + l]].y;
-  const gg_v8 at = (y - p->bottom) * d->cells.inverse + p->reach * EIGHT(b->ky, k);
-  const gg_v8 inside = gg_smaller8(gg_larger8(at, gg_all8(0)), gg_all8(p->last));
-  *(gg_list8 *)&b->cell[k] = (gg_list8) __builtin_convertvector(inside, int32_8);
+  gg_vd y;
+  for (uint32_t l = 0; l < GG_WIDTH; l++) y[l] = d->grains.at[b->i[k + l]].y;
+  const gg_vd at = (y - p->bottom) * d->cells.inverse + p->reach * LANES_OF(b->ky, k);
+  const gg_vd inside = gg_smaller(gg_larger(at, gg_all(0)), gg_all(p->last));
+  *(gg_list *)&b->cell[k] = (gg_list) __builtin_convertvector(inside, gg_list_whole);
 }
 
-/* Draw the random numbers of eight candidates. j: 32 bits for find_partner. */
+/* Draw the random numbers of a batch of candidates. j: 32 bits for find_partner. */
 GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint32_t k)
 {
-  const gg_u8 partner_bits = next_words(rng), direction_bits = next_words(rng), limit_bits = next_words(rng),
+  const gg_vu partner_bits = next_words(rng, k), direction_bits = next_words(rng, k), limit_bits = next_words(rng, k),
               i = (partner_bits >> 32) * p->n >> 32;
-  *(gg_list8 *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list8);
-  *(gg_list8 *)&b->j[k] = __builtin_convertvector(partner_bits & UINT32_MAX, gg_list8);
+  *(gg_list *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list);
+  *(gg_list *)&b->j[k] = __builtin_convertvector(partner_bits & UINT32_MAX, gg_list);
   draw_direction(direction_bits, limit_bits >> 32, b, k);
-  EIGHT(b->limit, k) = p->floor + p->majorant * (one_to_two(limit_bits) - 1);
-  EIGHT(b->sign, k) = one_to_two(direction_bits >> 31) - 1;
+  LANES_OF(b->limit, k) = p->floor + p->majorant * (one_to_two(limit_bits) - 1);
+  LANES_OF(b->sign, k) = one_to_two(direction_bits >> 31) - 1;
 }
 
 GG_INLINE void find_partner(const gg_dsmc_channel *d, const pass *p, block *b, uint32_t k)
@@ -210,15 +200,15 @@ GG_INLINE void find_partner(const gg_dsmc_channel *d, const pass *p, block *b, u
   b->scale[k] = p->chi[cell] * (int)n;
 }
 
-/* Draw eight candidates in a periodic channel, with their partners. The contact value is that of the middle between
- * both grains, in half cells round the channel. */
+/* Draw a batch of candidates in a periodic channel, with their partners. The contact value is that of the middle
+ * between both grains, in half cells round the channel. */
 static __attribute__((noinline)) void draw_round(const gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng,
                                                  block *b, uint32_t first)
 {
   const gg_half *grains = (const gg_half *)d->grains.at;
   const int cells = d->cells.n;
   draw_numbers(p, rng, b, first);
-  for (uint32_t k = first; k < first + GG_BATCH; k++) {
+  for (uint32_t k = first; k < first + GG_WIDTH; k++) {
     const double at = (grains[b->i[k]][0] - d->cells.from) * d->cells.inverse + p->reach * b->ky[k];
     const int beside = (int)floor(at), cell = beside < 0 ? beside + cells : beside < cells ? beside : beside - cells;
     const int middle = (p->cell + beside + 2 * cells) % (2 * cells);
@@ -233,66 +223,66 @@ static __attribute__((noinline)) void draw_round(const gg_dsmc_channel *d, const
 }
 
 /* Cells of these heights, which are in units of cells. */
-GG_INLINE gg_list8 cells_of(gg_v8 height, double last)
+GG_INLINE gg_list cells_of(gg_vd height, double last)
 {
-  return (gg_list8) __builtin_convertvector(gg_smaller8(height, gg_all8(last)), int32_8);
+  return (gg_list) __builtin_convertvector(gg_smaller(height, gg_all(last)), gg_list_whole);
 }
 
-/* Draw eight candidates by blocks. The product of 32 random bits and the number of partners is j in its upper half, and
- * the place in the cell of j in its lower one. */
+/* Draw a batch of candidates by blocks. The product of 32 random bits and the number of partners is j in its upper
+ * half, and the place in the cell of j in its lower one. */
 GG_INLINE void draw_by_blocks(const gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng, block *b, uint32_t k)
 {
   const gg_dsmc_channel_cells *c = &d->cells;
   const gg_dsmc_channel_motion *grains = d->grains.at;
   const partners *of = p->partners;
-  const gg_u8 partner_bits = next_words(rng), direction_bits = next_words(rng), limit_bits = next_words(rng),
+  const gg_vu partner_bits = next_words(rng, k), direction_bits = next_words(rng, k), limit_bits = next_words(rng, k),
               i = (partner_bits >> 32) * p->n >> 32;
-  const gg_v8 at = of->below[of->n] * (one_to_two(direction_bits) - 1);
-  gg_v8 far = gg_all8(0), from, to, h;
-  gg_u8 first, n;
-  gg_v8 above[SUMS] = {far, far, far, far};
+  const gg_vd at = of->below[of->n] * (one_to_two(direction_bits) - 1);
+  gg_vd far = gg_all(0), from, to, h;
+  gg_vu first, n;
+  gg_vd above[SUMS] = {far, far, far, far};
   for (int q = 1; q < of->n; q += SUMS)
     for (int s = 0; s < SUMS; s++)
-      above[s] += gg_choose8(gg_not_above8(gg_all8(of->below[q + s]), at), gg_all8(1), gg_all8(0));
+      above[s] += gg_select(gg_not_above(gg_all(of->below[q + s]), at), gg_all(1), gg_all(0));
   far = (above[0] + above[1]) + (above[2] + above[3]);
-  const gg_list8 which = (gg_list8) __builtin_convertvector(far, int32_8);
-  *(gg_list8 *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list8);
-  for (int l = 0; l < GG_BATCH; l++)
+  const gg_list which = (gg_list) __builtin_convertvector(far, gg_list_whole);
+  *(gg_list *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list);
+  for (int l = 0; l < GG_WIDTH; l++)
     first[l] = of->first[which[l]], n[l] = of->grains[which[l]], h[l] = of->h[which[l]];
-  const gg_u8 product = (partner_bits & UINT32_MAX) * n, j = first + (product >> 32);
-  *(gg_list8 *)&b->j[k] = __builtin_convertvector(j, gg_list8);
-  for (uint32_t l = 0; l < GG_BATCH; l++) from[l] = grains[b->i[k + l]].y, to[l] = grains[b->j[k + l]].y;
+  const gg_vu product = (partner_bits & UINT32_MAX) * n, j = first + (product >> 32);
+  *(gg_list *)&b->j[k] = __builtin_convertvector(j, gg_list);
+  for (uint32_t l = 0; l < GG_WIDTH; l++) from[l] = grains[b->i[k + l]].y, to[l] = grains[b->j[k + l]].y;
   from = (from - c->from) * c->inverse, to = (to - c->from) * c->inverse;
-  const gg_list8 home = cells_of(from, p->last), cell = cells_of(to, p->last);
-  const gg_v8 ky = (__builtin_convertvector(cell, gg_v8) + (one_to_two(product) - 1) - from) * p->inverse_reach;
-  gg_v8 chi;
-  for (int l = 0; l < GG_BATCH; l++) chi[l] = c->chi[home[l] + cell[l] + 1];
-  const gg_v8 squared = 1 - ky * ky;
-  *(gg_list8 *)&b->home[k] = home;
-  *(gg_list8 *)&b->cell[k] = cell + 1;
-  EIGHT(b->ky, k) = ky;
-  EIGHT(b->h, k) = h;
-  EIGHT(b->scale, k) = gg_choose8(gg_less8(gg_all8(0), squared), chi, gg_all8(0));
-  EIGHT(b->limit, k) = p->floor + p->majorant * (one_to_two(limit_bits) - 1);
-  EIGHT(b->sign, k) = one_to_two(direction_bits >> 31) - 1;
-  draw_azimuth(limit_bits >> 32, direction_bits >> 32, gg_sqrt8(gg_larger8(squared, gg_all8(0))), b, k);
+  const gg_list home = cells_of(from, p->last), cell = cells_of(to, p->last);
+  const gg_vd ky = (__builtin_convertvector(cell, gg_vd) + (one_to_two(product) - 1) - from) * p->inverse_reach;
+  gg_vd chi;
+  for (int l = 0; l < GG_WIDTH; l++) chi[l] = c->chi[home[l] + cell[l] + 1];
+  const gg_vd squared = 1 - ky * ky;
+  *(gg_list *)&b->home[k] = home;
+  *(gg_list *)&b->cell[k] = cell + 1;
+  LANES_OF(b->ky, k) = ky;
+  LANES_OF(b->h, k) = h;
+  LANES_OF(b->scale, k) = gg_select(gg_less(gg_all(0), squared), chi, gg_all(0));
+  LANES_OF(b->limit, k) = p->floor + p->majorant * (one_to_two(limit_bits) - 1);
+  LANES_OF(b->sign, k) = one_to_two(direction_bits >> 31) - 1;
+  draw_azimuth(limit_bits >> 32, direction_bits >> 32, gg_sqrt(gg_larger(squared, gg_all(0))), b, k);
 }
 
-/* Draw the candidates of a block, in whole batches of eight. */
+/* Draw the candidates of a block. All lanes of the random numbers advance, so their number is rounded up. */
 static void draw(gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
 {
-  const uint32_t n = (b->n + GG_BATCH - 1) / GG_BATCH * GG_BATCH;
+  const uint32_t n = (b->n + GG_DSMC_LANES - 1) / GG_DSMC_LANES * GG_DSMC_LANES;
   if (d->periodic) {
-    for (uint32_t k = 0; k < n; k += GG_BATCH) draw_round(d, p, rng, b, k);
+    for (uint32_t k = 0; k < n; k += GG_WIDTH) draw_round(d, p, rng, b, k);
     return;
   }
   if (d->cells.block > 0) {
     const gg_half *grains = (const gg_half *)d->grains.at;
-    for (uint32_t k = 0; k < n; k += GG_BATCH) draw_by_blocks(d, p, rng, b, k);
+    for (uint32_t k = 0; k < n; k += GG_WIDTH) draw_by_blocks(d, p, rng, b, k);
     for (uint32_t k = 0; k < n; k++) b->relative[k] = grains[b->i[k]] - grains[b->j[k]];
     return;
   }
-  for (uint32_t k = 0; k < n; k += GG_BATCH) {
+  for (uint32_t k = 0; k < n; k += GG_WIDTH) {
     draw_numbers(p, rng, b, k);
     find_cells(d, p, b, k);
   }
@@ -322,17 +312,17 @@ static void collide_plain(gg_dsmc_channel *d, pass *p, block *b)
   for (uint32_t m = 0; m < b->n; m++) try_candidate(d, p, b, m);
 }
 
-/* Bits of the eight candidates that have to be tested: they may be accepted, or exceed the recent majorant. */
+/* Bits of the candidates of a batch that have to be tested: they may be accepted, or exceed the recent majorant. */
 GG_INLINE uint32_t to_test(block *b, uint32_t k, double recent)
 {
-  const gg_half *row[GG_BATCH];
-  gg_v8 c[4];
-  for (int l = 0; l < GG_BATCH; l++) row[l] = &b->relative[k + (uint32_t)l];
-  gg_columns(row, c);
-  const gg_v8 A = EIGHT(b->ky, k) * c[2], B = EIGHT(b->kx, k) * c[1] + EIGHT(b->kz, k) * c[3];
-  const gg_v8 one = gg_larger8(A + B, gg_all8(0)), other = gg_larger8(A - B, gg_all8(0));
-  const gg_v8 value = EIGHT(b->scale, k) * (0.5 * (one + other));
-  return gg_lanes8(gg_less8(gg_smaller8(EIGHT(b->limit, k), gg_all8(recent)) * EIGHT(b->h, k), value));
+  const double *row[GG_WIDTH];
+  gg_vd c[4];
+  for (int l = 0; l < GG_WIDTH; l++) row[l] = (const double *)&b->relative[k + (uint32_t)l];
+  gg_batch_columns(row, c);
+  const gg_vd A = LANES_OF(b->ky, k) * c[2], B = LANES_OF(b->kx, k) * c[1] + LANES_OF(b->kz, k) * c[3];
+  const gg_vd one = gg_larger(A + B, gg_all(0)), other = gg_larger(A - B, gg_all(0));
+  const gg_vd value = LANES_OF(b->scale, k) * (0.5 * (one + other));
+  return gg_bits(gg_less(gg_smaller(LANES_OF(b->limit, k), gg_all(recent)) * LANES_OF(b->h, k), value));
 }
 
 /* Bits of those of 32 numbers that equal x. */
@@ -360,7 +350,7 @@ static void collide_block(gg_dsmc_channel *d, pass *p, block *b)
   const uint32_t drawn = UINT32_MAX >> (BLOCK - b->n);
   const double most = p->floor + p->majorant, all = p->recent > p->largest ? p->recent : p->largest;
   uint32_t tested = 0;
-  for (uint32_t m = 0; m < b->n; m += GG_BATCH) tested |= to_test(b, m, all < most ? all : most) << m;
+  for (uint32_t m = 0; m < b->n; m += GG_WIDTH) tested |= to_test(b, m, all < most ? all : most) << m;
   tested &= drawn;
   while (tested) {
     const uint32_t m = (uint32_t)__builtin_ctz(tested);

@@ -21,12 +21,10 @@ GG_INLINE uint32_t gg_md_append_cell(uint32_t *candidates, uint32_t n, const uin
  * line would load another line. Returns the new end. */
 GG_INLINE uint32_t *gg_md_append_large(uint32_t *end, const uint32_t *cell)
 {
-  typedef uint32_t line __attribute__((vector_size(64), may_alias, aligned(4)));
-  uint32_t count = cell[0];
-  line first = *(const line *)cell;
-  first = __builtin_shufflevector(first, first, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0);
-  memcpy(end, &first, sizeof first);
-  for (uint32_t k = 15; k < count; k += 16) memcpy(end + k, cell + 1 + k, sizeof first);
+  enum { LINE = 16 };
+  const uint32_t count = cell[0];
+  memcpy(end, cell + 1, (LINE - 1) * sizeof *cell);
+  for (uint32_t k = LINE - 1; k < count; k += LINE) memcpy(end + k, cell + 1 + k, LINE * sizeof *cell);
   return end + count;
 }
 

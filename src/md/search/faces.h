@@ -5,7 +5,6 @@
 
 #include "md/search/search.h"
 #include "simd/axes.h"
-#include "simd/eight.h"
 
 /* True if the upper face of this cell is a wall, which is not crossed. */
 GG_INLINE bool gg_md_is_wall_above(const gg_md *e, const int32_t *cell)
@@ -19,22 +18,29 @@ GG_INLINE bool gg_md_is_wall_below(const gg_md *e, const int32_t *cell)
   return IS_WALLED && cell[1] == 0;
 }
 
-/* Time until a grain on a parabola reaches the first of the faces below and above along each axis, by their distances
- * (INFINITY: a wall): gg_fall_delay of all faces at once. The number of a lane is the number of its face. */
+/* Times until a grain on a parabola reaches a face along each axis, by distance (INFINITY: a wall), velocity and
+ * acceleration away from it: gg_fall_delay of three faces at once. Lane 3 has none. */
+GG_INLINE gg_axes gg_md_fall_delays(gg_axes h, gg_axes u, gg_axes w)
+{
+  const gg_axes zero = {0}, never = {INFINITY, INFINITY, INFINITY, INFINITY};
+  gg_axes discriminant = u * u + 2 * w * h,
+          root = gg_sqrt_axes(gg_choose_axes(discriminant > zero, discriminant, zero));
+  gg_axes_mask towards = u > zero, there = h <= zero;
+  gg_axes_mask meets = (towards | (w > zero)) & (there | (discriminant >= zero)) & (h < never);
+  gg_axes delay = gg_choose_axes(towards, 2 * h, root - u) / gg_choose_axes(towards, u + root, w);
+  delay = gg_choose_axes(delay > zero, delay, zero);
+  return gg_choose_axes(meets & (gg_axes_mask){-1, -1, -1, 0}, delay, never);
+}
+
+/* Time until a grain on a parabola reaches the first of the faces below and above along each axis, by their distances;
+ * of equal times the face with the smallest number. */
 GG_INLINE double gg_md_fall_to_face(const gg_md *e, gg_axes below, gg_axes above, gg_axes v, int32_t *face)
 {
-#define FACES(lower, upper) __builtin_shufflevector(lower, upper, 0, 4, 1, 5, 2, 6, 3, 7)
   const gg_axes g = {e->gravity.x, e->gravity.y, e->gravity.z, 0};
-  gg_v8 h = FACES(below, above), u = FACES(-v, v), w = FACES(-g, g), zero = gg_all8(0), never = gg_all8(INFINITY);
-#undef FACES
-  gg_v8 discriminant = u * u + 2 * w * h, root = gg_sqrt8(gg_larger8(discriminant, zero));
-  gg_k8 towards = gg_less8(zero, u), there = gg_not_above8(h, zero);
-  gg_k8 meets = (towards | gg_less8(zero, w)) & (there | gg_not_above8(zero, discriminant)) & gg_less8(h, never);
-  gg_v8 delay = gg_choose8(towards, 2 * h, root - u) / gg_choose8(towards, u + root, w);
-  delay = gg_choose8(meets, gg_larger8(delay, zero), never);
-  delay = __builtin_shufflevector(delay, never, 0, 1, 2, 3, 4, 5, 8, 9);
-  gg_v8 first = gg_least8(delay);
-  *face = __builtin_ctz(gg_lanes8(gg_not_above8(delay, first)));
+  const gg_axes down = gg_md_fall_delays(below, -v, -g), up = gg_md_fall_delays(above, v, g);
+  const gg_axes first = gg_least_axes(gg_choose_axes(down < up, down, up));
+  const uint32_t lower = gg_axes_bits(down <= first), axis = (uint32_t)__builtin_ctz(lower | gg_axes_bits(up <= first));
+  *face = (int32_t)(2 * axis + !(lower >> axis & 1));
   return first[0];
 }
 

@@ -16,7 +16,7 @@ enum {
   IS_WALLED = GG_BOUNDARY == GG_MD_WALLED || GG_BOUNDARY == GG_MD_FALLING,
   HAS_GRAVITY = GG_BOUNDARY == GG_MD_FALLING,
   IS_MIXTURE = GG_MIXTURE,
-  IS_SIMD = GG_SIMD, /* eight pairs at a time */
+  IS_SIMD = GG_SIMD, /* a batch of pairs at a time */
 };
 #else
 #define IS_SHEARED gg_model_is_sheared(&e->model)

@@ -99,27 +99,18 @@ GG_INLINE void gg_md_collect_near(const gg_md *e, uint32_t i, gg_md_search *s)
   s->n_candidates = n;
 }
 
-typedef double gg_md_centre4 __attribute__((vector_size(32), may_alias, aligned(8)));
-
-/* Load the centres of eight skins as columns. */
-GG_INLINE void gg_md_gather_centres(const gg_md_skin *skin, const uint32_t *index, gg_v8 *x, gg_v8 *y, gg_v8 *z)
+/* Load the centres of a batch of skins as columns. */
+GG_INLINE void gg_md_gather_centres(const gg_md_skin *skin, const uint32_t *index, gg_vd *x, gg_vd *y, gg_vd *z)
 {
-#define TWO(k, m)                                                                                                      \
-  __builtin_shufflevector(*(const gg_md_centre4 *)&skin[index[k]].centre,                                              \
-                          *(const gg_md_centre4 *)&skin[index[m]].centre, 0, 1, 2, 3, 4, 5, 6, 7)
-  gg_v8 a = TWO(0, 4), b = TWO(1, 5), c = TWO(2, 6), d = TWO(3, 7);
-#undef TWO
-  gg_v8 ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-  gg_v8 cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
-  *x = __builtin_shufflevector(ab0, cd0, 0, 1, 8, 9, 4, 5, 12, 13);
-  *z = __builtin_shufflevector(ab0, cd0, 2, 3, 10, 11, 6, 7, 14, 15);
-  gg_v8 ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-  gg_v8 cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-  *y = __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13);
+  const double *row[GG_WIDTH];
+  gg_vd column[4];
+  for (int l = 0; l < GG_WIDTH; l++) row[l] = &skin[index[l]].centre.x;
+  gg_batch_columns(row, column);
+  *x = column[0], *y = column[1], *z = column[2];
 }
 
-/* Room for a full list, and for eight entries that are written before they are counted. */
-enum { GG_MD_FOUND = GG_MD_LIST + 1 + GG_BATCH };
+/* Room for a full list, and for a batch of entries that are written before they are counted. */
+enum { GG_MD_FOUND = GG_MD_LIST + 1 + GG_WIDTH };
 
 /* Search for the grains whose skin centres are within rho of that of skin i, into found[GG_MD_FOUND]. Returns their
  * number; more than GG_MD_LIST: too many. */
@@ -136,19 +127,19 @@ GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found
   double strain = IS_SHEARED ? e->model.shear_rate * e->k.now : 0;
   const double *reaches =
       e->search.lists.reach + (IS_MIXTURE ? gg_md_pair(&e->contacts, gg_md_species_of(&e->grain[i]), 0) : 0);
-  for (int l = 0; l < GG_BATCH; l++) candidates[n + (uint32_t)l] = e->n;
-  for (uint32_t k = 0; k < n && count <= GG_MD_LIST; k += GG_BATCH) {
-    gg_v8 x, y, z, reach = gg_all8(reaches[0]);
+  for (int l = 0; l < GG_WIDTH; l++) candidates[n + (uint32_t)l] = e->n;
+  for (uint32_t k = 0; k < n && count <= GG_MD_LIST; k += GG_WIDTH) {
+    gg_vd x, y, z, reach = gg_all(reaches[0]);
     gg_md_gather_centres(e->search.lists.skin, candidates + k, &x, &y, &z);
-    for (int l = 0; IS_MIXTURE && l < GG_BATCH; l++)
+    for (int l = 0; IS_MIXTURE && l < GG_WIDTH; l++)
       reach[l] = reaches[gg_md_species_of(&e->grain[candidates[k + (uint32_t)l]])];
     x -= centre.x, y -= centre.y, z -= centre.z;
-    gg_v8 layers = gg_nearest8(y * inverse[1]);
+    gg_vd layers = gg_batch_nearest(y * inverse[1]);
     y -= L[1] * layers;
     if (IS_SHEARED) x += strain * y - layers * e->box.offset0;
-    x -= L[0] * gg_nearest8(x * inverse[0]);
-    z -= L[2] * gg_nearest8(z * inverse[2]);
-    count += gg_pick8(found + count, candidates + k, i, gg_less8(x * x + y * y + z * z, reach * reach));
+    x -= L[0] * gg_batch_nearest(x * inverse[0]);
+    z -= L[2] * gg_batch_nearest(z * inverse[2]);
+    count += gg_batch_pick(found + count, candidates + k, i, gg_less(x * x + y * y + z * z, reach * reach));
   }
   return n == GG_MD_MOST_CANDIDATES ? GG_MD_LIST + 1 : count;
 }

@@ -10,7 +10,7 @@
  * centre is stored by its position at the start of the epoch, which does not change: the cells of the centres are at
  * rest.
  *
- * A prediction tests the whole list, eight grains at a time. */
+ * A prediction tests the whole list, a batch of grains at a time. */
 #ifndef GG_MD_SEARCH_LISTS_H
 #define GG_MD_SEARCH_LISTS_H
 

@@ -11,13 +11,12 @@ typedef struct gg_md_step {
   int axis, up;
 } gg_md_step;
 
-/* Synchronise a grain, and wrap it into the box along the axis of a step. The record is written by one store: a read
- * soon after several partial stores would wait for them. */
+/* Synchronise a grain, and wrap it into the box along the axis of a step. Each half of the record is written by one
+ * store: a read soon after several partial stores would wait for them. */
 GG_INLINE gg_md_grain *gg_md_synchronise_step(gg_md *e, uint32_t i, gg_md_step step)
 {
   gg_md_grain *g = &e->grain[i];
-  gg_line *record = (gg_line *)g;
-  gg_v8 old = *record;
+  gg_axes_there *half = (gg_axes_there *)g;
   const double dt = e->k.now - g->t;
   gg_axes v = gg_load_axes(&g->v.x), r = gg_load_axes(&g->r.x) + dt * v;
   if (HAS_GRAVITY) {
@@ -28,10 +27,9 @@ GG_INLINE gg_md_grain *gg_md_synchronise_step(gg_md *e, uint32_t i, gg_md_step s
   const gg_axes was = r;
   gg_axes wrapped = gg_wrap_axes(r, gg_load_axes(e->box.edge), gg_load_axes(e->box.inverse));
   r = gg_choose_axes(gg_axes_of(1u << step.axis), wrapped, r);
-  gg_v8 new = __builtin_shufflevector(r, v, 0, 1, 2, 4, 5, 6, -1, -1);
-  new = __builtin_shufflevector(new, old, 0, 1, 2, 3, 4, 5, 14, 15);
-  new[6] = e->k.now;
-  *record = new;
+  const gg_axes now = {0, 0, e->k.now, half[1][3]};
+  half[0] = __builtin_shufflevector(r, v, 0, 1, 2, 4);
+  half[1] = __builtin_shufflevector(v, now, 1, 2, 6, 7);
   if (e->image) gg_md_count_image(e, i, (gg_vec){was[0], was[1], was[2]});
   return g;
 }
