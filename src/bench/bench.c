@@ -166,9 +166,7 @@ static gg_status refuse(const char *word, gg_error *err)
 {
   char allowed[64] = "";
   for (int i = 0; i < N_SUBJECTS; i++)
-    if (subjects[i].name)
-      snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed), "%s%s", *allowed ? ", " : "",
-               subjects[i].name);
+    if (subjects[i].name) gg_base_text_append(allowed, sizeof allowed, "%s%s", *allowed ? ", " : "", subjects[i].name);
   return GG_REFUSE(err, "bench: '%s' is not known; allowed: %s, compare, or nothing for an overview", word, allowed);
 }
 

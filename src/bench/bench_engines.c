@@ -20,7 +20,8 @@ enum {
   COUETTE = 128,
   NOISE = 256,
   NEARLY = 512,
-  IN_BATH = 1024
+  IN_BATH = 1024,
+  TWO_WAYS = 2048 /* also timed in two ways: by another path, on threads */
 };
 
 /* A scene with a feature, and the scene it is compared with; the first row is compared with itself. */
@@ -30,7 +31,7 @@ typedef struct feature {
 } feature;
 
 static const feature md_features[] = {
-    {"smooth", "smooth", 0},
+    {"smooth", "smooth", TWO_WAYS},
     {"rough", "smooth", ROUGH},
     {"two species", "smooth", MIXTURE},
     {"stress measured", "smooth", SUMS},
@@ -39,7 +40,7 @@ static const feature md_features[] = {
     {"sheared smooth", "smooth", SHEARED},
     {"sheared rough", "smooth", SHEARED | ROUGH},
     {"sheared frictional", "sheared rough", SHEARED | FRICTIONAL},
-    {"sheared rough, stress measured", "sheared rough", SHEARED | ROUGH | SUMS},
+    {"sheared rough, stress measured", "sheared rough", SHEARED | ROUGH | SUMS | TWO_WAYS},
     {"moving walls, rough", "sheared rough", SHEARED | ROUGH | COUETTE},
     {"white noise, e = 0.99", "smooth", NOISE | NEARLY},
     {"white noise, e = 0.9", "smooth", NOISE},
@@ -47,17 +48,17 @@ static const feature md_features[] = {
     {"bath, rough, e = 0.9", "bath, e = 0.9", NOISE | IN_BATH | ROUGH},
 };
 static const feature dsmc_features[] = {
-    {"smooth", "smooth", 0},
-    {"rough", "smooth", ROUGH},
+    {"smooth", "smooth", TWO_WAYS},
+    {"rough", "smooth", ROUGH | TWO_WAYS},
     {"frictional", "rough", FRICTIONAL},
-    {"two species", "smooth", MIXTURE},
+    {"two species", "smooth", MIXTURE | TWO_WAYS},
     {"two species, rough", "rough", MIXTURE | ROUGH},
     {"smooth, stress measured", "smooth", SUMS},
     {"sheared smooth", "smooth", SHEARED},
-    {"sheared smooth, stress measured", "sheared smooth", SHEARED | SUMS},
+    {"sheared smooth, stress measured", "sheared smooth", SHEARED | SUMS | TWO_WAYS},
     {"sheared rough, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | ROUGH},
     {"sheared frictional, stress measured", "sheared rough, stress measured", SHEARED | SUMS | FRICTIONAL},
-    {"sheared, two species, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | MIXTURE},
+    {"sheared, two species, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | MIXTURE | TWO_WAYS},
 };
 static const feature dsmc_wall_features[] = {{"moving walls", "moving walls", SHEARED | COUETTE}};
 
@@ -70,6 +71,7 @@ typedef struct engine_bench {
   double densities[3];
   int64_t sizes[4], ratio_size, quick_ratio_size;
   double ratio_seconds;
+  int first_shared; /* first size that threads share */
 } engine_bench;
 
 static const engine_bench md = {
@@ -90,7 +92,8 @@ static const engine_bench md = {
     {1000, 10000, 100000, 1000000},
     10000,
     2000,
-    0.5};
+    0.5,
+    2};
 static const engine_bench dsmc = {
     GG_DSMC,
     "times",
@@ -109,7 +112,8 @@ static const engine_bench dsmc = {
     {10000, 100000, 1000000},
     100000,
     10000,
-    0.4};
+    0.4,
+    1};
 
 static const engine_bench dsmc_walls = {
     .engine = GG_DSMC,
@@ -259,19 +263,27 @@ static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *er
   return GG_OK;
 }
 
-/* The feature that only the second way has. */
-typedef enum second_way { IN_SINGLE_PRECISION, IN_BLOCKS, ON_THREADS } second_way;
+/* The feature that only the second way has. Beside a neighbour both ways have so many processors as the second has
+ * threads, and another thread keeps one of them busy. */
+typedef enum second_way { IN_SINGLE_PRECISION, IN_BLOCKS, ON_THREADS, BESIDE_A_NEIGHBOUR } second_way;
 
-/* Comparison of two variants of a scene, by kind and size. */
-typedef struct two_ways {
-  const engine_bench *of;
-  double phi;
-  const char *key, *caption, *done;
-  const char *kinds[11]; /* ends with NULL */
-  int first_size, warmup[2], repeats[2];
-  double seconds[2]; /* seconds of a stretch: full and quick, as the sizes above */
-  second_way second;
-} two_ways;
+#define IN_TURN "timed in turn; median (least - largest) of repeats"
+static const struct {
+  const char *key, *caption;
+} ways[] = {
+    {"precision",
+     "Single precision: nanoseconds per accepted collision in double/in single precision, and the ratio of the rates; "
+     "CPU time, one thread, phi 0.3; " IN_TURN},
+    {"paths",
+     "Speedup by blocks: nanoseconds per accepted collision in the plain loop (one random pair after another, under "
+     "one majorant)/by blocks, and the ratio of the rates; CPU time, one thread; " IN_TURN},
+    {"threads",
+     "Speedup by threads within one run: the rate of collisions over that of one thread, in wall time, and processors "
+     "busy on average; " IN_TURN},
+    {"threads, busy neighbour",
+     "The same on as many processors as threads, one of which another thread keeps busy, also beside the one thread; "
+     "wall time, " IN_TURN},
+};
 
 static void take_plain_path(gg_engine *engine)
 {
@@ -284,141 +296,93 @@ static void differ(gg_timed_scene way[2], second_way second, int threads)
 {
   if (second == IN_SINGLE_PRECISION) way[1].scene.dsmc.precision = GG_SINGLE;
   if (second == IN_BLOCKS) way[0].prepare = take_plain_path;
-  way[0].wall_time = way[1].wall_time = second == ON_THREADS;
+  way[0].wall_time = way[1].wall_time = second >= ON_THREADS;
+  way[0].neighbour = way[1].neighbour = second == BESIDE_A_NEIGHBOUR;
   way[1].threads = threads;
 }
 
-static void put_two(gg_bench_table *t, int row, int column, const gg_timing r[2], second_way second, int threads)
+/* No cooling gas in single precision: without rescaling its velocities would leave the range. */
+static bool has_two_ways(const feature *f, second_way second)
+{
+  return second == IN_SINGLE_PRECISION ? f->has & SHEARED || !(f->has & FRICTIONAL) : f->has & TWO_WAYS;
+}
+
+static void put_two(const gg_bench *b, gg_bench_table *t, const engine_bench *e, int row, int column, int kind,
+                    double phi, int64_t n, const gg_timing r[2], int used)
 {
   const gg_bench_value ratio = r[1].ratio;
-  const double ns[2] = {1e9 / r[0].rate.value, 1e9 / r[1].rate.value};
-  if (second == IN_SINGLE_PRECISION)
-    gg_bench_table_put(t, row, column, "%.1f/%.1f ns %.2f (%.2f - %.2f)", ns[0], ns[1], ratio.value, ratio.lowest,
-                       ratio.highest);
-  else if (second == IN_BLOCKS)
-    gg_bench_table_put(t, row, column, "%.1f (%.1f - %.1f) %.0f/%.1f ns", ratio.value, ratio.lowest, ratio.highest,
-                       ns[0], ns[1]);
-  else
-    gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f) %.2f of %d", ratio.value, ratio.lowest, ratio.highest,
-                       r[1].processors, threads);
-}
-
-static const two_ways precision = {
-    &dsmc,
-    0.3,
-    "precision",
-    "Single precision: nanoseconds per accepted collision in double/in single precision, and the ratio of the rates, "
-    "timed in turn; CPU time, one thread, phi 0.3; median (least - largest) of repeats",
-    "single precision",
-    /* No cooling gas: without rescaling its velocities would leave the range of single precision. */
-    {"smooth", "rough", "two species", "two species, rough", "smooth, stress measured", "sheared smooth",
-     "sheared smooth, stress measured", "sheared rough, stress measured", "sheared frictional, stress measured",
-     "sheared, two species, stress measured"},
-    0,
-    {10, 3},
-    {5, 3},
-    {0.3, 0.05},
-    IN_SINGLE_PRECISION};
-static const two_ways paths = {
-    &dsmc,
-    0.3,
-    "paths",
-    "Speedup by blocks: the rate of collisions over that of the plain loop (one random pair after another, under one "
-    "majorant), one thread, CPU time, timed in turn; median (least - largest) of repeats, and nanoseconds per "
-    "collision of both",
-    "blocks against the plain loop",
-    {"smooth", "rough", "two species", "sheared smooth, stress measured"},
-    0,
-    {5, 3},
-    {5, 3},
-    {0.5, 0.1},
-    IN_BLOCKS};
-static const two_ways threads = {
-    &dsmc,
-    0.3,
-    "threads",
-    "Speedup by threads within one ensemble: the rate of collisions over that of one thread, in wall time, timed in "
-    "turn; median (least - largest) of repeats, and processors busy on average",
-    "threads against one",
-    {"smooth", "rough", "two species", "sheared smooth, stress measured", "sheared, two species, stress measured"},
-    1,
-    {5, 5},
-    {9, 5},
-    {0.4, 0.1},
-    ON_THREADS};
-
-#define THREADS_OF_MD(key, phi)                                                                                        \
-  {                                                                                                                    \
-    &md, phi, key,                                                                                                     \
-        "Speedup by threads within one run: the rate of collisions over that of one thread, in wall time, timed in "   \
-        "turn; median (least - largest) of repeats, and processors busy on average",                                   \
-        "threads against one", {"smooth", "sheared rough, stress measured"}, 2, {5, 5}, {5, 3}, {1, 0.3}, ON_THREADS   \
-  }
-static const two_ways threads_of_md[] = {THREADS_OF_MD("threads", 0.3), THREADS_OF_MD("threads, dense", 0.5)};
-
-static void add_two(const gg_bench *b, gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2],
-                    int used)
-{
   gg_bench_value v = gg_bench_time(&r[1], used > 1 ? gg_bench_wall_unit : dsmc.unit);
   v.threads = used;
-  json_t *beside =
-      json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].rate.value, "ratio", r[1].ratio.value, "ratio_lowest",
-                r[1].ratio.lowest, "ratio_highest", r[1].ratio.highest, "processors", r[1].processors);
-  gg_bench_table_add(b, t, v, beside, "{s:s, s:s, s:f, s:I}", "engine", engine_name(w->of), "scene", w->kinds[k], "phi",
-                     w->phi, "particles", (json_int_t)n);
+  if (used > 1)
+    gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f) %.2f of %d", ratio.value, ratio.lowest, ratio.highest,
+                       r[1].processors, used);
+  else
+    gg_bench_table_put(t, row, column, "%.1f/%.1f ns %.2f (%.2f - %.2f)", 1e9 / r[0].rate.value, v.value, ratio.value,
+                       ratio.lowest, ratio.highest);
+  json_t *beside = json_pack("{s:f, s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].rate.value, "ratio", ratio.value,
+                             "ratio_lowest", ratio.lowest, "ratio_highest", ratio.highest, "processors",
+                             r[1].processors, "neighbour", r[1].neighbour);
+  gg_bench_table_add(b, t, v, beside, "{s:s, s:s, s:f, s:I}", "engine", engine_name(e), "scene", e->features[kind].name,
+                     "phi", phi, "particles", (json_int_t)n);
 }
 
-static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error *err)
+/* Measure `sizes` sizes: a row for each kind of scene. */
+static gg_status measure_two(gg_bench *b, const engine_bench *e, double phi, second_way second, int sizes, int used,
+                             gg_error *err)
 {
   const bool quick = b->options->quick;
-  gg_bench_table *t = gg_bench_table_new(b, w->key, w->caption, 1, err);
+  const int first = second >= ON_THREADS ? e->first_shared : 0;
+  gg_bench_table *t = gg_bench_table_new(b, ways[second].key, ways[second].caption, 1, err);
   if (!t) return GG_FAILED;
-  gg_bench_table_column(t, false, "scene, phi %g", w->phi);
-  for (int k = 0; w->kinds[k]; k++) gg_bench_table_row(t, "%s", w->kinds[k]);
-  for (int i = w->first_size; i < (quick ? w->first_size + 1 : w->of->n_sizes); i++) {
-    const int64_t n = w->of->sizes[i];
+  gg_bench_table_column(t, false, "%s, phi %g", engine_name(e), phi);
+  for (int i = first; i < e->n_sizes && i < first + sizes; i++) {
+    const int64_t n = e->sizes[i];
     const int column = gg_bench_table_column(t, true, "N %lld", (long long)n);
-    for (int k = 0; w->kinds[k]; k++) {
-      gg_timed_scene way[2] = {timed_scene(b, w->of, find(w->of, w->kinds[k]), w->phi, n)};
+    for (int k = 0, row = 0; k < e->n_features; k++) {
+      gg_timed_scene way[2] = {timed_scene(b, e, k, phi, n)};
       gg_timing r[2];
+      if (!has_two_ways(&e->features[k], second)) continue;
+      if (i == first) gg_bench_table_row(t, "%s", e->features[k].name);
       way[0].against = 0;
       way[1] = way[0];
-      differ(way, w->second, used);
-      GG_TRY(gg_bench_throughput_compare(way, 2, w->warmup[quick], w->repeats[quick],
-                                         gg_bench_seconds(b, w->seconds[quick]), r, err));
-      put_two(t, k, column, r, w->second, used);
-      add_two(b, t, w, k, n, r, used);
+      differ(way, second, used);
+      GG_TRY(gg_bench_throughput_compare(way, 2, 5, quick ? 3 : 7,
+                                         gg_bench_seconds(b, quick ? 0.25 * e->ratio_seconds : 2 * e->ratio_seconds), r,
+                                         err));
+      put_two(b, t, e, row++, column, k, phi, n, r, used);
     }
-    if (used > 1)
-      gg_bench_report(b, "%d %s, N %lld done", used, w->done, (long long)n);
-    else
-      gg_bench_report(b, "%s, N %lld done", w->done, (long long)n);
+    gg_bench_report(b, "%s, N %lld done", ways[second].key, (long long)n);
   }
   return GG_OK;
 }
 
-static gg_status measure_threads(gg_bench *b, const two_ways *w, int n, gg_error *err)
+/* With and without a neighbour. */
+static gg_status measure_threads(gg_bench *b, const engine_bench *e, double phi, int sizes, int used, gg_error *err)
 {
-  if (b->options->threads <= 1) gg_bench_report(b, "one processor: threads are not timed");
-  for (int k = 0; k < n && b->options->threads > 1; k++) GG_TRY(measure_two(b, &w[k], b->options->threads, err));
+  if (used <= 1) gg_bench_report(b, "one processor: threads are not timed");
+  for (second_way k = ON_THREADS; k <= BESIDE_A_NEIGHBOUR && used > 1; k++)
+    GG_TRY(measure_two(b, e, phi, k, sizes, used, err));
   return GG_OK;
 }
 
 gg_status gg_bench_md(gg_bench *b, gg_error *err)
 {
+  const int sizes = b->options->quick ? 1 : 4, used = b->options->threads;
   GG_TRY(measure_rates(b, &md, err));
   GG_TRY(measure_ratios(b, &md, err));
-  return measure_threads(b, threads_of_md, COUNT(threads_of_md), err);
+  GG_TRY(measure_threads(b, &md, 0.3, sizes, used, err));
+  return measure_threads(b, &md, 0.5, sizes, used, err);
 }
 
 gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
 {
+  const int sizes = b->options->quick ? 1 : 4;
   GG_TRY(measure_rates(b, &dsmc, err));
   GG_TRY(measure_rates(b, &dsmc_walls, err));
   GG_TRY(measure_ratios(b, &dsmc, err));
-  GG_TRY(measure_two(b, &precision, 1, err));
-  GG_TRY(measure_two(b, &paths, 1, err));
-  return measure_threads(b, &threads, 1, err);
+  GG_TRY(measure_two(b, &dsmc, 0.3, IN_SINGLE_PRECISION, sizes, 1, err));
+  GG_TRY(measure_two(b, &dsmc, 0.3, IN_BLOCKS, sizes, 1, err));
+  return measure_threads(b, &dsmc, 0.3, sizes, b->options->threads, err);
 }
 
 /* Rows of the overview: both engines in shear at e = 0.9, with the stress measured as in a run. */
@@ -427,33 +391,24 @@ static const struct {
   double beta, mu;
 } kernels[] = {{"smooth", -1, INFINITY}, {"rough", 0, INFINITY}, {"frictional", 0.4, 0.123}};
 
-static void put_overview(const gg_bench *b, gg_bench_table *t, const char *engine, double phi, int64_t n,
-                         const gg_timing *r)
-{
-  const int row = gg_bench_table_row(t, "%s", engine);
-  gg_bench_table_put(t, row, 1, "%g", phi);
-  gg_bench_table_put(t, row, 2, "%lld", (long long)n);
-  for (int k = 0; k < COUNT(kernels); k++) {
-    gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r[k].rate.value * 1e-6, 1e9 / r[k].rate.value);
-    gg_bench_table_add(b, t, gg_bench_rate(&r[k], md.unit), NULL, "{s:s, s:s, s:f, s:I}", "engine", engine, "kernel",
-                       kernels[k].name, "phi", phi, "particles", (json_int_t)n);
-  }
-}
-
 static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind engine, double phi, int64_t n,
                                   gg_error *err)
 {
   const bool quick = b->options->quick;
   const char *name = gg_common_engine_of(engine)->name;
-  gg_timing r[COUNT(kernels)];
+  const int row = gg_bench_table_row(t, "%s", name);
+  gg_bench_table_put(t, row, 1, "%g", phi);
+  gg_bench_table_put(t, row, 2, "%lld", (long long)n);
   for (int k = 0; k < COUNT(kernels); k++) {
+    gg_timing r;
     gg_scene s = gg_bench_scene(b, engine, phi, n);
     s.collision.beta[0] = kernels[k].beta;
     s.collision.mu[0] = kernels[k].mu;
-    GG_TRY(
-        gg_bench_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r[k], err));
+    GG_TRY(gg_bench_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r, err));
+    gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r.rate.value * 1e-6, 1e9 / r.rate.value);
+    gg_bench_table_add(b, t, gg_bench_rate(&r, md.unit), NULL, "{s:s, s:s, s:f, s:I}", "engine", name, "kernel",
+                       kernels[k].name, "phi", phi, "particles", (json_int_t)n);
   }
-  put_overview(b, t, name, phi, n, r);
   gg_bench_report(b, "%s phi %g N %lld done", name, phi, (long long)n);
   return GG_OK;
 }
@@ -462,7 +417,7 @@ gg_status gg_bench_overview(gg_bench *b, gg_error *err)
 {
   static const char caption[] =
       "Collisions per CPU-second, one core; uniform shear, e = 0.9, stress measured; median of repeats";
-  const int n_sizes = b->options->quick ? 2 : 3;
+  const int n_sizes = b->options->quick ? 2 : 3, two = b->options->threads > 2 ? 2 : b->options->threads;
   gg_bench_table *t = gg_bench_table_new(b, "throughput", caption, 3, err);
   if (!t) return GG_FAILED;
   gg_bench_table_column(t, false, "engine");
@@ -472,5 +427,7 @@ gg_status gg_bench_overview(gg_bench *b, gg_error *err)
   for (int i = 0; i < 2 * 2 * n_sizes; i++)
     GG_TRY(measure_overview(b, t, (gg_engine_kind)(i / (2 * n_sizes)), md.densities[i / n_sizes % 2],
                             md.sizes[i % n_sizes], err));
-  return gg_bench_scenes(b, err);
+  GG_TRY(gg_bench_scenes(b, err));
+  GG_TRY(measure_threads(b, &md, 0.3, 1, two, err));
+  return measure_threads(b, &dsmc, 0.3, 1, two, err);
 }

@@ -3,6 +3,9 @@
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
 
 #include "base/clock.h"
 #include "run/run.h"
@@ -89,11 +92,12 @@ gg_bench_value gg_bench_spread(const char *unit, double *values, int n)
                           1};
 }
 
-static gg_timing compare(const timed *r, const timed *other, int repeats)
+static gg_timing compare(const timed *r, const timed *other, double neighbour, int repeats)
 {
   double rate[MOST_REPEATS], ratio[MOST_REPEATS];
   for (int i = 0; i < repeats; i++) rate[i] = r->rate[i], ratio[i] = r->rate[i] / other->rate[i];
-  return (gg_timing){gg_bench_spread("", rate, repeats), gg_bench_spread("", ratio, repeats), r->cpu / r->wall};
+  return (gg_timing){gg_bench_spread("", rate, repeats), gg_bench_spread("", ratio, repeats), r->cpu / r->wall,
+                     neighbour};
 }
 
 static gg_status time_all(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds, timed *r,
@@ -105,15 +109,58 @@ static gg_status time_all(const gg_timed_scene *c, int n, double warmup, int rep
   return GG_OK;
 }
 
+/* A busy neighbour, as another process would be: a thread that spins. The calling thread and all that it starts after
+ * the neighbour have so many processors, of which the neighbour wants one. */
+typedef struct neighbour {
+  pthread_t thread;
+  atomic_bool over;
+  double began, busy; /* wall time at its start; processors that it had, on average */
+#ifdef __linux__
+  cpu_set_t before;
+#endif
+} neighbour;
+
+static void *spin(void *context)
+{
+  neighbour *b = context;
+  while (!atomic_load_explicit(&b->over, memory_order_relaxed)) continue;
+  b->busy = gg_base_clock_cpu() / (gg_base_clock_wall() - b->began);
+  return NULL;
+}
+
+static gg_status start_neighbour(neighbour *b, int processors, gg_error *err)
+{
+#ifdef __linux__
+  sched_getaffinity(0, sizeof b->before, &b->before);
+  cpu_set_t few = b->before;
+  for (int k = CPU_SETSIZE - 1; k >= 0 && CPU_COUNT(&few) > processors; k--) CPU_CLR(k, &few);
+  sched_setaffinity(0, sizeof few, &few);
+#endif
+  b->began = gg_base_clock_wall();
+  return pthread_create(&b->thread, NULL, spin, b) ? gg_base_fail(err, GG_FAILED, "no thread can be started") : GG_OK;
+}
+
+static void stop_neighbour(neighbour *b)
+{
+  atomic_store(&b->over, true);
+  pthread_join(b->thread, NULL);
+#ifdef __linux__
+  sched_setaffinity(0, sizeof b->before, &b->before);
+#endif
+}
+
 gg_status gg_bench_throughput_compare(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds,
                                       gg_timing *out, gg_error *err)
 {
   timed r[GG_MOST_TIMED] = {0};
+  neighbour beside = {0};
   if (n > GG_MOST_TIMED) return gg_base_fail(err, GG_FAILED, "%d scenes at once; at most %d", n, GG_MOST_TIMED);
   if (repeats > MOST_REPEATS) repeats = MOST_REPEATS;
+  if (c[n - 1].neighbour) GG_TRY(start_neighbour(&beside, c[n - 1].threads, err));
   gg_status status = time_all(c, n, warmup, repeats, seconds, r, err);
+  if (c[n - 1].neighbour) stop_neighbour(&beside);
   for (int k = 0; k < n; k++) {
-    if (status == GG_OK) out[k] = compare(&r[k], &r[c[k].against], repeats);
+    if (status == GG_OK) out[k] = compare(&r[k], &r[c[k].against], beside.busy, repeats);
     if (r[k].engine) r[k].engine->ops->destroy(r[k].engine);
   }
   return status;

@@ -10,6 +10,7 @@ typedef struct gg_timing {
   gg_bench_value rate;  /* collisions per CPU-second (or second) */
   gg_bench_value ratio; /* rate over that of the scene it is compared with, of each repeat */
   double processors;    /* mean number of busy processors: CPU time of all threads over wall time */
+  double neighbour;     /* the same of the busy neighbour; 0: none */
 } gg_timing;
 
 /* Start the scene near its steady state, advance `warmup` collisions per grain, then time `repeats` stretches of at
@@ -34,6 +35,7 @@ typedef struct gg_timed_scene {
   int against;                        /* index of the scene that it is compared with */
   int threads;                        /* threads of the engine; 0: one */
   bool wall_time;                     /* measure wall time, not processor time */
+  bool neighbour;                     /* threads share as many processors with a thread that spins */
   void (*prepare)(gg_engine *engine); /* called with the new engine; may be NULL */
 } gg_timed_scene;
 gg_status gg_bench_throughput_compare(const gg_timed_scene *scenes, int n, double warmup, int repeats, double seconds,

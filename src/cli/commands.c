@@ -79,9 +79,10 @@ const gg_command gg_cli_commands[] = {
     {"bench", "[md|dsmc|observables|error|compare A B]",
      "Speed of the engines: collisions per second by kernel, density and size; run time against error",
      "Without an argument: both engines in uniform shear at e = 0.9 with the stress measured, one core, median of "
-     "repeats; then single scenes: white noise, walls, placing grains, two threads.\nmd: elastic smooth spheres by "
-     "size and density; cost of roughness, shear, walls, gravity, white noise, a second species and stress "
-     "measurement; gain of threads within one run.\ndsmc: nanoseconds per accepted collision; gain of the block "
+     "repeats. Then single scenes: walls and baths at three densities, white noise, placing grains. Then two threads, "
+     "alone and beside a busy neighbour, which is another thread that spins.\nmd: elastic smooth spheres by size and "
+     "density; cost of roughness, shear, walls, gravity, white noise, baths, a second species and stress measurement; "
+     "gain of threads within one run.\ndsmc: nanoseconds per accepted collision, also between walls; gain of the block "
      "kernels over the plain loop and of threads within one ensemble.\nobservables: run time that each observable "
      "adds, for both engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a "
      "table a state of uniform shear and free cooling, over engines, numbers of grains, time steps, precision and "

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/thread_pool.h"
 #include "bench/bench.h"
 #include "graingas.h"
 
@@ -157,21 +158,57 @@ static bool has_scene(const gg_bench_table *s, const char *name)
   return false;
 }
 
-/* Scenes of the overview: one of each kind that a nightly run is to watch. */
-static void check_scenes(const gg_bench_table *s)
+static int count_scenes(const gg_bench_table *s, const char *name, const char *engine)
 {
-  static const char *const names[] = {"white noise, e = 0.99", "white noise, e = 0.9", "walls (couette), e = 0.9",
-                                      "start, per grain", "two threads"};
+  int n = 0;
   size_t i;
   json_t *row;
+  json_array_foreach(s->rows, i, row) n += is_word(row, "scene", name) && is_word(row, "engine", engine);
+  return n;
+}
+
+/* Scenes of the overview: each kind that a nightly run is to watch, walls and baths at three densities. */
+static void check_scenes(const gg_bench_table *s)
+{
+  static const struct {
+    const char *name, *engine;
+    int rows;
+  } kinds[] = {
+      {"elastic", "md", 1},           {"white noise, e = 0.99", "md", 1},     {"white noise, e = 0.9", "md", 1},
+      {"bath, e = 0.9", "md", 3},     {"bath, e = 0.9, beta = 0.5", "md", 3}, {"walls (couette), e = 0.9", "md", 3},
+      {"start, per grain", "md", 2},  {"white noise, e = 0.9", "dsmc", 1},    {"walls (couette), e = 0.9", "dsmc", 3},
+      {"start, per grain", "dsmc", 1}};
+  size_t i;
+  json_t *row;
+  int rows = 0;
   assert_whole(s, NULL);
-  assert_int_equal(json_array_size(s->rows), s->n_rows);
-  for (size_t k = 0; k < sizeof names / sizeof *names; k++) assert_true(has_scene(s, names[k]));
-  json_array_foreach(s->rows, i, row)
-  {
-    const bool two = is_word(row, "scene", "two threads"), start = is_word(row, "scene", "start, per grain");
-    assert_int_equal(of(row, "threads"), two ? 2 : 1);
-    assert_true(start == is_word(row, "unit", "ns per grain"));
+  for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+    assert_int_equal(count_scenes(s, kinds[k].name, kinds[k].engine), kinds[k].rows);
+    rows += kinds[k].rows;
+  }
+  assert_int_equal(s->n_rows, rows);
+  assert_int_equal(json_array_size(s->rows), rows);
+  json_array_foreach(s->rows, i, row) assert_true(
+      is_word(row, "unit", is_word(row, "scene", "start, per grain") ? "ns per grain" : "ns per collision"));
+}
+
+/* Tables of two threads from number `first` on, one without and one with a neighbour in turn. The neighbour of the
+ * second has a hundredth of a processor at least, also on a machine with many other processes. */
+static void check_threads(const gg_bench *b, int first, int tables)
+{
+  size_t i;
+  json_t *row;
+  assert_int_equal(b->n_tables, first + tables);
+  for (int t = 0; t < tables; t++) {
+    const gg_bench_table *s = b->table[first + t];
+    assert_string_equal(s->key, t % 2 ? "threads, busy neighbour" : "threads");
+    assert_whole(s, "ratio");
+    json_array_foreach(s->rows, i, row)
+    {
+      assert_int_equal(of(row, "threads"), 2);
+      assert_true(is_word(row, "unit", "ns per collision, wall time") && of(row, "processors") > 0);
+      assert_true(t % 2 ? of(row, "neighbour") > 0.01 : of(row, "neighbour") == 0);
+    }
   }
 }
 
@@ -180,14 +217,17 @@ static void the_overview_has_every_engine_density_and_size(void **state)
   (void)state;
   gg_bench b;
   for (int quick = !full_too; quick < 2; quick++) {
-    gg_bench_options o = {.quick = quick, .smaller = 200, .tell = report_after_rows};
+    gg_bench_options o = {.quick = quick, .smaller = 200, .threads = 4, .tell = report_after_rows};
+    const int processors = gg_base_processors();
     begin(&b, &o, NULL);
+    assert_int_equal(gg_base_processors(), processors); /* those that were left to a neighbour are given back */
     const gg_bench_table *s = table_of(&b, "throughput");
     assert_whole(s, NULL);
     assert_int_equal(s->n_rows, 2 * 2 * (quick ? 2 : 3)); /* engines, densities, sizes */
-    assert_int_equal(reports, s->n_rows + table_of(&b, "scenes")->n_rows);
+    assert_int_equal(reports, s->n_rows + table_of(&b, "scenes")->n_rows + 4);
     assert_int_equal(json_array_size(s->rows), 3 * s->n_rows);
     check_scenes(table_of(&b, "scenes"));
+    check_threads(&b, 2, 4);
     end(&b);
   }
 }
@@ -200,13 +240,14 @@ static void md_has_its_rows_and_ratios(void **state)
       "bath, e = 0.9"};
   gg_bench b;
   for (int quick = !full_too; quick < 2; quick++) {
-    gg_bench_options o = {.quick = quick, .smaller = 1000};
+    gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = quick ? 2 : 1, .tell = report};
     begin(&b, &o, "md");
     assert_whole(table_of(&b, "collisions"), NULL);
     assert_int_equal(table_of(&b, "collisions")->n_rows, quick ? 2 : 4);
     assert_beside(table_of(&b, "ratios"), "collisions per CPU-second");
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++)
       assert_true(has_scene(table_of(&b, "ratios"), scenes[k]));
+    check_threads(&b, 2, quick ? 4 : 0);
     end(&b);
   }
 }
@@ -224,8 +265,7 @@ static void dsmc_has_its_rows_and_ratios(void **state)
       assert_beside(table_of(&b, "ratios"), "ns per collision");
       assert_whole(table_of(&b, "precision"), "ratio");
       assert_whole(table_of(&b, "paths"), "ratio");
-      assert_int_equal(b.n_tables, threads > 1 ? 6 : 5);
-      if (threads > 1) assert_whole(table_of(&b, "threads"), "ratio");
+      check_threads(&b, 5, threads > 1 ? 2 : 0);
       end(&b);
     }
 }

@@ -81,29 +81,48 @@ def test_exercises():
 
 
 def peers(*more):
-    """validation/peers with a peer that burns a twentieth of a second and prints its collisions."""
+    """validation/peers with a peer that burns a twentieth of a second, prints its collisions and says a hundredth."""
     with open("s.yaml", "w", encoding="utf-8") as file:
         file.write("flow: hcs\nphi: 0.1\nparticles: 500\nrun: {collisions: 200, warmup: 20}\n")
-    fake = f"{sys.executable} -c 'import time\nwhile time.process_time() < 0.05: pass\nprint(\"collisions: 1e3\\ncollisions: 4e5\")'"
+    fake = (f"{sys.executable} -c 'import time\nwhile time.process_time() < 0.05: pass\n"
+            "print(\"collisions: 1e3\\ncollisions: 4e5 in 0.01 s\")'")
     return subprocess.run([sys.executable, os.path.join(SOURCE, "validation", "peers", "peers.py"), "--graingas", GRAINGAS, "--scene", "s.yaml",
                            "--peer", "other", "--command", fake, "--repeat", "2", *more], capture_output=True, text=True)
 
 
+def rows_of_peers(*more):
+    done = peers(*more)
+    check(done.returncode == 0, done.stderr)
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines() if line.startswith("| ")][2:]
+    check([row[0] for row in rows] == ["graingas md", "other"] and rows[1][3:] == ["1", "1 to 1"], rows)
+    for row in rows:
+        for median, ends in row[1:3], row[3:]:
+            low, high = map(float, ends.split(" to "))
+            check(0 < low <= float(median) <= high, row)
+    return rows
+
+
 def test_peers():
-    """Rates from the last number that the peer prints or from --events, medians and their ratio; errors with a reason."""
+    """Rates from the last number that the peer prints or from --events, ratios of turns; errors with a reason."""
     for more, events in ((("--pattern", r"collisions: ([0-9.e+]+)"), 4e5), (("--events", "8e5"), 8e5)):
-        done = peers(*more)
-        check(done.returncode == 0, done.stderr)
-        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines() if line.startswith("| ")][2:]
-        check([row[0] for row in rows] == ["graingas md", "other"] and rows[1][3] == "1", rows)
-        check(events / 2 < float(rows[1][1]) <= events / 0.05 and abs(float(rows[0][3]) / (float(rows[0][1]) / float(rows[1][1])) - 1) < 0.01, rows)
-        for row in rows:
-            low, high = map(float, row[2].split(" to "))
-            check(0 < low <= float(row[1]) <= high, row)
+        rows = rows_of_peers(*more)
+        check(events / 2 < float(rows[1][1]) <= events / 0.05, rows)
+        low, high = (float(end) for end in rows[0][4].split(" to "))
+        least, most = ([float(end) for end in row[2].split(" to ")] for row in rows)
+        check(0.99 * least[0] / most[1] <= low <= high <= 1.01 * least[1] / most[0], rows)
+    with open("fake", "w", encoding="utf-8") as file:
+        file.write("#!/bin/sh\necho '{\"collisions\": 300, \"cpu_seconds\": 0.5, \"total\": {\"collisions\": 400}}'\n")
+    os.chmod("fake", 0o755)
+    rows = rows_of_peers("--events", "4e5", "--seconds", r"in ([0-9.]+) s", "--graingas", "./fake")
+    check(rows[1][1:3] == ["4e+07", "4e+07 to 4e+07"], "the seconds that the peer prints", rows)
+    check(rows[0][1:4] == ["600", "600 to 600", "1.5e-05"], "averaging alone", rows)
     done = peers("--pattern", "nothing ([0-9]+)")
     check(done.returncode == 1 and "nothing in the output" in done.stderr, done.stderr)
-    done = peers("--pattern", "collisions")
-    check(done.returncode == 2 and "one group" in done.stderr, done.stderr)
+    done = peers("--events", "1", "--seconds", "nothing ([0-9]+)")
+    check(done.returncode == 1 and "nothing in the output" in done.stderr, done.stderr)
+    for option in "--pattern", "--seconds":
+        done = peers(*(("--events", "1") if option == "--seconds" else ()), option, "collisions")
+        check(done.returncode == 2 and "one group" in done.stderr, done.stderr)
     done = peers("--events", "1", "--command", "exit 3")
     check(done.returncode == 1 and "exit code 3" in done.stderr, done.stderr)
 
