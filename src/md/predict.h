@@ -35,10 +35,10 @@ typedef struct gg_md_batch {
 /* Load the records of a batch of grains, a cache line each, and transpose them. */
 GG_INLINE gg_md_batch gg_md_gather(const gg_md_grain *grain, const uint32_t *index)
 {
-  const double *front[GG_WIDTH], *back[GG_WIDTH];
+  const gg_row *front[GG_WIDTH], *back[GG_WIDTH];
   gg_vd one[4], two[4];
   for (int k = 0; k < GG_WIDTH; k++) {
-    front[k] = (const double *)(grain + index[k]);
+    front[k] = (const gg_row *)(grain + index[k]);
     back[k] = front[k] + 4;
   }
   gg_batch_columns(front, one);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums of velocity moments in registers of GG_LANES numbers, for a set of instructions (GG_TARGET). Included once for
- * each, with GG_OF(name) for the names. Registers of another width than the processor's would be kept in memory and
- * copied piece by piece. The eight sums of each moment are taken GG_LANES at a time. */
+ * each, with GG_OF(name) for the names. Vectors wider than a register would be kept in memory and copied
+ * piece by piece. The eight sums of each moment are taken GG_LANES at a time. */
 
 #define lanes GG_OF(lanes)
 #define singles GG_OF(singles)
@@ -35,7 +35,7 @@ GG_INLINE lanes GG_OF(in_double)(singles x)
 /* Roots of doubles would take more time than all the sums; in single precision they take a quarter of it. */
 GG_INLINE lanes GG_OF(root_of)(bool quick, lanes x)
 {
-  lanes root;
+  lanes root = {0};
   if (!quick) {
     for (int l = 0; l < GG_LANES; l++) root[l] = __builtin_sqrt(x[l]);
     return root;

@@ -13,8 +13,8 @@
 
 enum { GG_LOOK_UP = 16 };
 
+/* Words of a list, one a lane. */
 typedef uint32_t gg_list __attribute__((vector_size(4 * GG_WIDTH), may_alias, aligned(4)));
-typedef int32_t gg_list_whole __attribute__((vector_size(4 * GG_WIDTH)));
 
 /* Number of each lane. */
 GG_INLINE gg_vi gg_batch_places(void)
@@ -114,14 +114,14 @@ GG_INLINE uint32_t gg_batch_pick(uint32_t *to, const uint32_t *from, uint32_t bu
 #endif
 }
 
-/* Half a record. */
-typedef double gg_half __attribute__((vector_size(32), may_alias));
+/* A row of numbers in a record, which may have members of other types. */
+typedef double gg_row __attribute__((may_alias));
 
 /* Transpose rows of four numbers, one a lane, into columns. */
-GG_INLINE void gg_batch_columns(const double *const row[GG_WIDTH], gg_vd column[4])
+GG_INLINE void gg_batch_columns(const gg_row *const row[GG_WIDTH], gg_vd column[4])
 {
 #if defined(GG_HAS_AVX512)
-  /* Loads put two halves side by side and so do a part of it: the processor has only one unit for shuffles. */
+  /* A load puts two rows side by side, which saves a shuffle: the processor has one unit for shuffles. */
 #define TWO(k, m) _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(row[k])), _mm256_loadu_pd(row[m]), 1)
   gg_vd a = TWO(0, 4), b = TWO(1, 5), c = TWO(2, 6), d = TWO(3, 7);
 #undef TWO

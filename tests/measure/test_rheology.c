@@ -309,7 +309,6 @@ static void viscosity_at_no_shear(void **state)
   gg_measure_viscosity.destroy(self);
 }
 
-/* Quantities that a scene does not have, and only those, have a reason. */
 /* Registers of every width leave the bits of the narrowest, also with a last group that is not full. */
 static void moments_have_the_same_bits_in_all_sets(void **state)
 {
@@ -331,6 +330,7 @@ static void moments_have_the_same_bits_in_all_sets(void **state)
     }
 }
 
+/* Quantities that a scene does not have, and only those, have a reason. */
 static void missing_quantities_have_reasons(void **state)
 {
   (void)state;

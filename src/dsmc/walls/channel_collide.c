@@ -122,10 +122,15 @@ GG_INLINE void collide(gg_dsmc_channel *d, const pass *p, double time, uint32_t 
   t->given[p->pair] += energy.given;
 }
 
+/* Height and velocity of a grain. */
+typedef double motion4 __attribute__((vector_size(32), may_alias));
+/* Numbers of cells, one a lane. */
+typedef int32_t whole_numbers __attribute__((vector_size(4 * GG_WIDTH)));
+
 /* Candidates that are drawn at once. */
 enum { BLOCK = 32 };
 typedef struct block {
-  gg_half relative[BLOCK];                                  /* first grain minus second, in height and velocity */
+  motion4 relative[BLOCK];                                  /* first grain minus second, in height and velocity */
   double kx[BLOCK], ky[BLOCK], kz[BLOCK];                   /* k; k_x and k_z may get the other sign */
   double h[BLOCK], scale[BLOCK], limit[BLOCK];              /* h(k_y), chi N, random limit */
   double sign[BLOCK];                                       /* random number that decides the sign */
@@ -170,11 +175,11 @@ GG_INLINE void draw_direction(gg_vu height, gg_vu azimuth, block *b, uint32_t k)
 /* Find the cell of the partner. Grains above the last cell of an open top get the empty cell above it. */
 GG_INLINE void find_cells(const gg_dsmc_channel *d, const pass *p, block *b, uint32_t k)
 {
-  gg_vd y;
+  gg_vd y = {0};
   for (uint32_t l = 0; l < GG_WIDTH; l++) y[l] = d->grains.at[b->i[k + l]].y;
   const gg_vd at = (y - p->bottom) * d->cells.inverse + p->reach * LANES_OF(b->ky, k);
   const gg_vd inside = gg_smaller(gg_larger(at, gg_all(0)), gg_all(p->last));
-  *(gg_list *)&b->cell[k] = (gg_list) __builtin_convertvector(inside, gg_list_whole);
+  *(gg_list *)&b->cell[k] = (gg_list) __builtin_convertvector(inside, whole_numbers);
 }
 
 /* Draw the random numbers of a batch of candidates. j: 32 bits for find_partner. */
@@ -191,7 +196,7 @@ GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint
 
 GG_INLINE void find_partner(const gg_dsmc_channel *d, const pass *p, block *b, uint32_t k)
 {
-  const gg_half *grains = (const gg_half *)d->grains.at;
+  const motion4 *grains = (const motion4 *)d->grains.at;
   const uint32_t cell = b->cell[k], *start = p->start + cell * (uint32_t)d->model.n_species;
   const uint32_t n = start[1] - start[0], j = start[0] + (uint32_t)((uint64_t)b->j[k] * n >> 32);
   b->relative[k] = grains[b->i[k]] - grains[j];
@@ -205,7 +210,7 @@ GG_INLINE void find_partner(const gg_dsmc_channel *d, const pass *p, block *b, u
 static __attribute__((noinline)) void draw_round(const gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng,
                                                  block *b, uint32_t first)
 {
-  const gg_half *grains = (const gg_half *)d->grains.at;
+  const motion4 *grains = (const motion4 *)d->grains.at;
   const int cells = d->cells.n;
   draw_numbers(p, rng, b, first);
   for (uint32_t k = first; k < first + GG_WIDTH; k++) {
@@ -225,7 +230,7 @@ static __attribute__((noinline)) void draw_round(const gg_dsmc_channel *d, const
 /* Cells of these heights, which are in units of cells. */
 GG_INLINE gg_list cells_of(gg_vd height, double last)
 {
-  return (gg_list) __builtin_convertvector(gg_smaller(height, gg_all(last)), gg_list_whole);
+  return (gg_list) __builtin_convertvector(gg_smaller(height, gg_all(last)), whole_numbers);
 }
 
 /* Draw a batch of candidates by blocks. The product of 32 random bits and the number of partners is j in its upper
@@ -238,14 +243,14 @@ GG_INLINE void draw_by_blocks(const gg_dsmc_channel *d, const pass *p, gg_dsmc_l
   const gg_vu partner_bits = next_words(rng, k), direction_bits = next_words(rng, k), limit_bits = next_words(rng, k),
               i = (partner_bits >> 32) * p->n >> 32;
   const gg_vd at = of->below[of->n] * (one_to_two(direction_bits) - 1);
-  gg_vd far = gg_all(0), from, to, h;
-  gg_vu first, n;
+  gg_vd far = {0}, from = far, to = far, h = far;
+  gg_vu first = {0}, n = first;
   gg_vd above[SUMS] = {far, far, far, far};
   for (int q = 1; q < of->n; q += SUMS)
     for (int s = 0; s < SUMS; s++)
       above[s] += gg_select(gg_not_above(gg_all(of->below[q + s]), at), gg_all(1), gg_all(0));
   far = (above[0] + above[1]) + (above[2] + above[3]);
-  const gg_list which = (gg_list) __builtin_convertvector(far, gg_list_whole);
+  const gg_list which = (gg_list) __builtin_convertvector(far, whole_numbers);
   *(gg_list *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list);
   for (int l = 0; l < GG_WIDTH; l++)
     first[l] = of->first[which[l]], n[l] = of->grains[which[l]], h[l] = of->h[which[l]];
@@ -255,7 +260,7 @@ GG_INLINE void draw_by_blocks(const gg_dsmc_channel *d, const pass *p, gg_dsmc_l
   from = (from - c->from) * c->inverse, to = (to - c->from) * c->inverse;
   const gg_list home = cells_of(from, p->last), cell = cells_of(to, p->last);
   const gg_vd ky = (__builtin_convertvector(cell, gg_vd) + (one_to_two(product) - 1) - from) * p->inverse_reach;
-  gg_vd chi;
+  gg_vd chi = {0};
   for (int l = 0; l < GG_WIDTH; l++) chi[l] = c->chi[home[l] + cell[l] + 1];
   const gg_vd squared = 1 - ky * ky;
   *(gg_list *)&b->home[k] = home;
@@ -277,7 +282,7 @@ static void draw(gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng, block
     return;
   }
   if (d->cells.block > 0) {
-    const gg_half *grains = (const gg_half *)d->grains.at;
+    const motion4 *grains = (const motion4 *)d->grains.at;
     for (uint32_t k = 0; k < n; k += GG_WIDTH) draw_by_blocks(d, p, rng, b, k);
     for (uint32_t k = 0; k < n; k++) b->relative[k] = grains[b->i[k]] - grains[b->j[k]];
     return;
@@ -315,9 +320,9 @@ static void collide_plain(gg_dsmc_channel *d, pass *p, block *b)
 /* Bits of the candidates of a batch that have to be tested: they may be accepted, or exceed the recent majorant. */
 GG_INLINE uint32_t to_test(block *b, uint32_t k, double recent)
 {
-  const double *row[GG_WIDTH];
+  const gg_row *row[GG_WIDTH];
   gg_vd c[4];
-  for (int l = 0; l < GG_WIDTH; l++) row[l] = (const double *)&b->relative[k + (uint32_t)l];
+  for (int l = 0; l < GG_WIDTH; l++) row[l] = (const gg_row *)&b->relative[k + (uint32_t)l];
   gg_batch_columns(row, c);
   const gg_vd A = LANES_OF(b->ky, k) * c[2], B = LANES_OF(b->kx, k) * c[1] + LANES_OF(b->kz, k) * c[3];
   const gg_vd one = gg_larger(A + B, gg_all(0)), other = gg_larger(A - B, gg_all(0));

@@ -102,7 +102,7 @@ GG_INLINE void gg_md_collect_near(const gg_md *e, uint32_t i, gg_md_search *s)
 /* Load the centres of a batch of skins as columns. */
 GG_INLINE void gg_md_gather_centres(const gg_md_skin *skin, const uint32_t *index, gg_vd *x, gg_vd *y, gg_vd *z)
 {
-  const double *row[GG_WIDTH];
+  const gg_row *row[GG_WIDTH];
   gg_vd column[4];
   for (int l = 0; l < GG_WIDTH; l++) row[l] = &skin[index[l]].centre.x;
   gg_batch_columns(row, column);
