@@ -18,7 +18,8 @@
 
 #if !GG_SANITIZED && defined(GG_X86_64) && defined(__GLIBC__) && (!defined(__clang__) || __clang_major__ >= 14)
 #define GG_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
-/* The same in two parts, where the code for registers of 512 bits differs; without it GG_WIDE_TARGET is undefined. */
+/* For functions with code of their own for registers of 512 bits: GG_NARROW_CLONES marks the code for narrower
+ * registers, GG_WIDE_TARGET that for 512 bits. Without a choice by the loader GG_WIDE_TARGET is undefined. */
 #define GG_NARROW_CLONES __attribute__((target_clones("avx2", "default")))
 #define GG_WIDE_TARGET __attribute__((target("avx512f")))
 #else

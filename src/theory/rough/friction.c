@@ -11,8 +11,11 @@
 #include "theory/rough/friction_averages.h"
 #include "theory/rough/turn.h"
 
-/* Rows beside those of the functions: the rate, and J. Rows that are turned at a time. */
-enum { MORE_ROWS = 4, PANEL = 16, CLASSES = 4 };
+enum {
+  MORE_ROWS = 4, /* beside those of the functions: the collision rate and the three components of J */
+  PANEL = 16,    /* rows that are turned at a time */
+  CLASSES = 4    /* pairs of parities, gg_rough_class */
+};
 
 struct gg_rough_friction {
   const gg_rough_functions *f;
@@ -91,8 +94,9 @@ GG_INLINE void combine_six(int n, const double factor[GG_ROUGH_AXES], const doub
   }
 }
 
-/* The other columns: those of (b, Q) are those of (b, Q - 1) after a creation operator of y4, y5 or y6, over sqrt(Q),
- * which is a sum of creation operators of z. */
+/* The columns (b, Q) with Q > 0, by their degree in y4, y5, y6. The creation operator of one of these coordinates,
+ * over sqrt(Q), makes column (b, Q) of column (b, Q - 1), since collisions only shift that coordinate. The rows
+ * belong to z already: there the creation operator of y_j is the sum over i of Y_ji times that of z_i. */
 GG_CLONES static void raise_columns(const gg_rough_functions *f, const double Y[GG_ROUGH_AXES][GG_ROUGH_AXES],
                                     double *W)
 {

@@ -3,10 +3,14 @@
  * J = eta1 g_n k + j g_t with j = eta2 where eta2 |g_t| <= mu eta1 g_n (the contact sticks), else j = mu eta1 g_n/|g_t|
  * (it slides). So z' is no longer a polynomial in z, and the integrals over g are quadratures.
  *
- * Along one direction k, in orthonormal coordinates y = Y z of which y1, y2, y3 make g = R y + m with R lower
- * triangular: y1, y2, y3 change by a function of g, and the others are shifted by another. T_(a,l),b = < g_n [Ho_a(y')
- * delta^l - 1_(l = 0) Ho_a(y)] Ho_b(y) > over y1, y2, y3, delta the shifts of y4, y5, y6 W_(a,P),(b,Q) = prod_i
- * sqrt(P_i!/Q_i!)/(P_i - Q_i)! T_(a,P-Q),b for Q <= P, else 0 and plane rotations lead back to z. */
+ * For each direction k there are orthonormal coordinates y = Y z. The first three make the contact velocity,
+ * g = R y + m with R lower triangular. A collision changes these three by a function of g, and shifts y4, y5, y6 by
+ * delta, another function of g.
+ *
+ * Indices are pairs: (a, l) stands for Ho_a of y1, y2, y3 times Ho_l of y4, y5, y6. The averages over y1, y2, y3,
+ *   T_(a,l),b = < g_n [Ho_a(y') delta^l - 1_(l = 0) Ho_a(y)] Ho_b(y) >,
+ * give the columns (b, 0) of the operator, W_(a,l),(b,0) = T_(a,l),b/sqrt(l!). Rotations of planes turn their rows from
+ * y to z. The columns (b, Q) follow from these by creation operators, and rotations turn the columns last. */
 #ifndef GG_ROUGH_FRICTION_H
 #define GG_ROUGH_FRICTION_H
 

@@ -202,6 +202,7 @@ static void add_sliding(gg_rough_averages *x, const gg_rough_slide *slide, const
   const gg_rough_functions *f = x->f;
   const size_t stride = (size_t)x->stride;
   double step[GG_ROUGH_AXES], power[3][SIDE];
+  if (slide->n == 0) return; /* the powers of a step with huge mu may be infinite */
   for (int y = 0; y < GG_ROUGH_AXES; y++) {
     step[y] = 0;
     for (int i = 0; i < 3; i++) step[y] += frame->D[y][i] * slide->J[i];

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Averages over the contact velocity g of one direction, for friction.h: sums over the points of friction_points.h.
  *
- * Contacts that stick have y' and delta linear in y: Ho_a(y') delta^l is a sum of Ho_c(y), of which < g_n Ho_c Ho_b >
- * are the averages. Contacts that slide at one azimuth have delta = g_n x a constant vector: all l of one degree have
- * one average. Both save sums over all points for each of the n functions (a, l). */
+ * For contacts that stick, y' and delta are linear in y, so that Ho_a(y') delta^l is a sum of Ho_c(y). Only the
+ * averages < g_n Ho_c Ho_b > need sums over points. For contacts that slide at one azimuth, delta is g_n times a
+ * constant vector, so that one average serves all l of the same degree. Without these two, each of the n functions
+ * (a, l) would need a sum over all points. */
 #ifndef GG_ROUGH_FRICTION_AVERAGES_H
 #define GG_ROUGH_FRICTION_AVERAGES_H
 

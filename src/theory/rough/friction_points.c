@@ -251,8 +251,9 @@ gg_rough_points gg_rough_rays_points(gg_rough_rays *r, const gg_rough_frame *f)
     const double alpha = 2 * M_PI * (a + 0.5) / r->azimuths;
     const double t[2] = {g.t[0] * cos(alpha), g.t[1] * cos(alpha) + g.t[2] * sin(alpha)}, along = hypot(t[0], t[1]);
     const double edge = atan(limit / along), slip = f->mu * f->eta1 / along;
+    const int points = many[0] + (edge < M_PI_2 ? many[1] : 0);
     r->slide[a] = (gg_rough_slide){.J = {f->eta1, slip * t[0], slip * t[1]}, .point = to[1]};
-    for (int i = 0; i < many[0] + many[1]; i++) {
+    for (int i = 0; i < points; i++) {
       const int side = i >= many[0];
       double psi, w;
       gsl_integration_glfixed_point(side ? edge : 0, side ? M_PI_2 : edge, (size_t)(side ? i - many[0] : i), &psi, &w,
