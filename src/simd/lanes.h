@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lanes: GG_WIDTH numbers in a register, up to eight. They are double, or float if GG_SINGLE_LANES is defined. Every
  * operation is lane by lane, exact or correctly rounded, and nothing is contracted, so that all processors leave the
- * same bits. A file that is compiled
- * for a set of instructions has its registers, any other file those of the lowest set. If the compiler finds the best
- * instructions by itself, plain vector types are used.
+ * same bits. A file that is compiled for a set of instructions has its registers, any other file those of the lowest
+ * set. If the compiler finds the best instructions by itself, plain vector types are used.
  *
  * gg_vd, gg_vi, gg_vu: numbers, whole numbers, and words of the same width. gg_mask: one truth value a lane. */
 #ifndef GG_SIMD_LANES_H
