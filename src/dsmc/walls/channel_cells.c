@@ -17,10 +17,11 @@
 #define DIAMETERS_PER_CELL 0.1
 #define LAYERS_FADE 0.005
 enum {
-  LEAST_CELLS = 20,    /* across the channel */
-  OPEN_HEIGHTS = 8,    /* with an open top cells reach up to so many heights of the box */
-  NARROW = 25,         /* cells that a contact distance spans at least, for blocks */
-  BLOCKS_PER_REACH = 8 /* blocks of a contact distance: narrower ones cost tables, wider ones candidates */
+  LEAST_CELLS = 20,     /* across the channel */
+  OPEN_HEIGHTS = 8,     /* with an open top cells reach up to so many heights of the box */
+  NARROW = 25,          /* cells that a contact distance spans at least, for blocks */
+  BLOCKS_PER_REACH = 8, /* blocks of a contact distance: narrower ones cost tables, wider ones candidates */
+  PLACES = 16           /* solid fractions that are summed at once, in registers */
 };
 
 double gg_dsmc_channel_cell_width(const gg_model *m)
@@ -130,7 +131,7 @@ gg_status gg_dsmc_channel_cells_new(gg_dsmc_channel *d, gg_error *err)
   c->mean = gg_base_array_new(n * species, sizeof *c->mean, err);
   c->hits = gg_base_array_new(n, sizeof *c->hits, err);
   c->chi = gg_base_array_new(pairs * 2 * n + 2, sizeof *c->chi, err);
-  c->filled = gg_base_array_new(7 * n, sizeof *c->filled, err);
+  c->filled = gg_base_array_new(7 * n + (size_t)c->reach + 2 + PLACES, sizeof *c->filled, err);
   c->kernel = gg_base_array_new(species * (size_t)(c->reach + 1), sizeof *c->kernel, err);
   c->majorant = gg_base_array_new(n * species * species, sizeof *c->majorant, err);
   GG_TRY(make_blocks(d, err));
@@ -214,18 +215,26 @@ void gg_dsmc_channel_sort(gg_dsmc_channel *d)
   d->sorted = from;
 }
 
-/* to[a] += weight mean[a + shift]. */
-GG_CLONES static void spread(int n, int shift, double weight, const double *restrict mean, double *restrict to)
+/* Mean numbers of a species, with those of the cells beyond both ends: none, or of images in a periodic channel. */
+static void extend_mean(const gg_dsmc_channel *d, int species, int beyond, double *mean)
 {
-  const int first = shift < 0 ? -shift : 0, end = shift > 0 ? n - shift : n;
-  for (int a = first; a < end; a++) to[a] += weight * mean[a + shift];
+  const int n = d->cells.n;
+  for (int b = -beyond; b < n + beyond + PLACES; b++) {
+    const int image = d->periodic ? (b + 2 * n) % n : b;
+    mean[beyond + b] = image >= 0 && image < n ? d->cells.mean[image * d->model.n_species + species] : 0;
+  }
 }
 
-/* The same in a periodic channel, with the images below and above. */
-static void spread_round(int n, int shift, double weight, const double *mean, double *to)
+/* to[a] = sum of kernel[|k|] mean[a + (k + edge)/2] over k from -reach to reach, where k + edge is even. */
+GG_CLONES static void spread(int n, int reach, int edge, const double *restrict kernel, const double *restrict mean,
+                             double *restrict to)
 {
-  for (int image = -1; image <= 1; image++)
-    if (abs(shift + image * n) < n) spread(n, shift + image * n, weight, mean, to);
+  for (int first = 0; first < n; first += PLACES) {
+    double sum[PLACES] = {0};
+    for (int k = -reach + (reach + edge) % 2; k <= reach; k += 2)
+      for (int a = 0; a < PLACES; a++) sum[a] += kernel[abs(k)] * mean[first + a + (k + edge) / 2];
+    memcpy(to + first, sum, (size_t)(n - first < PLACES ? n - first : PLACES) * sizeof *sum);
+  }
 }
 
 /* Local solid fraction at all places: n in the middles of cells, then n at their upper edges. And the sum of its
@@ -234,17 +243,13 @@ static void set_filling(gg_dsmc_channel *d)
 {
   gg_dsmc_channel_cells *c = &d->cells;
   const int species = d->model.n_species, n = c->n;
-  double *mean = c->filled + 4 * n, *grains = mean + n;
+  const int beyond = c->reach / 2 + 1;
+  double *grains = c->filled + 4 * n, *mean = grains + 2 * n;
   memset(c->filled, 0, 4 * (size_t)n * sizeof *c->filled);
   for (int s = 0; s < species; s++) {
     const double diameter = d->model.diameter[s], *kernel = c->kernel + s * (c->reach + 1);
-    memset(grains, 0, 2 * (size_t)n * sizeof *grains);
-    for (int b = 0; b < n; b++) mean[b] = c->mean[b * species + s];
-    for (int k = -c->reach; k <= c->reach; k++) { /* half cells from a place to the middle of a cell */
-      const bool edge = k % 2;
-      if (abs(k) / 2 < n)
-        (d->periodic ? spread_round : spread)(n, (k + edge) / 2, kernel[abs(k)], mean, grains + edge * n);
-    }
+    extend_mean(d, s, beyond, mean);
+    for (int edge = 0; edge < 2; edge++) spread(n, c->reach, edge, kernel, mean + beyond, grains + edge * n);
     for (int place = 0; place < 2 * n; place++) {
       const double part = M_PI / 6 * diameter * diameter * diameter * grains[place] / c->volume;
       c->filled[place] += part, c->filled[2 * n + place] += part / diameter;
