@@ -150,33 +150,50 @@ static void state(const gg_engine *engine, gg_engine_state *state)
 
 enum { SHOWN = 256 }; /* grains of a chunk: they stay in the first cache until they have been sampled */
 
-/* Apply the pending flight to a copy of a grain; sums and random streams of the walls are unchanged. */
-static void fly_on(const gg_dsmc_channel *d, gg_dsmc_channel_grain *p)
+/* Apply the pending flight to a copy of a grain; random streams of the walls are unchanged, and contacts do not count.
+ */
+static void fly_on(const gg_dsmc_channel *d, gg_dsmc_channel_contacts *unused, gg_dsmc_channel_grain *p)
 {
-  gg_dsmc_channel_contacts unused = {0};
   gg_rng rng = d->now.streams.walls[0];
-  gg_dsmc_channel_fly_grain(d, d->now.pending, &rng, p, &unused);
+  gg_dsmc_channel_fly_grain(d, d->now.pending, &rng, p, unused);
 }
 
-static void show_grain(const gg_dsmc_channel *d, size_t i, size_t slot, double out[9][SHOWN])
+GG_INLINE void put(double out[9][SHOWN], int first, size_t slot, gg_vec v)
+{
+  out[first][slot] = v.x, out[first + 1][slot] = v.y, out[first + 2][slot] = v.z;
+}
+
+static void show_grain(const gg_dsmc_channel *d, size_t i, gg_dsmc_channel_contacts *unused, size_t slot,
+                       double out[9][SHOWN])
 {
   const gg_dsmc_channel_grains *g = &d->grains;
   gg_dsmc_channel_grain p = {.r = {0, g->at[i].y, 0}, .c = g->at[i].c, .species = g->species[i]};
   if (g->s) p.s = g->s[i];
-  if (d->now.pending > 0) fly_on(d, &p);
-  const gg_vec parts[] = {p.r, p.c, p.s};
-  for (int k = 0; k < 9; k++) out[k][slot] = gg_along(&parts[k / 3], k % 3);
+  fly_on(d, unused, &p);
+  put(out, 0, slot, p.r), put(out, 3, slot, p.c), put(out, 6, slot, p.s);
+}
+
+/* The same where no flight is pending. */
+static void show_grains(const gg_dsmc_channel_grains *g, size_t first, size_t n, double out[9][SHOWN])
+{
+  for (size_t k = 0; k < n; k++) put(out, 0, k, (gg_vec){0, g->at[first + k].y, 0}), put(out, 3, k, g->at[first + k].c);
+  for (size_t k = 0; g->s && k < n; k++) put(out, 6, k, g->s[first + k]);
 }
 
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
 {
   const gg_dsmc_channel *d = channel_of(engine);
+  gg_dsmc_channel_contacts unused = {0};
   double out[9][SHOWN];
   int64_t id[SHOWN];
   const size_t n = (size_t)d->model.n;
   for (size_t first = 0; first < n; first += SHOWN) {
     gg_chunk chunk = {.n = n - first < SHOWN ? n - first : SHOWN};
-    for (size_t k = 0; k < chunk.n; k++) show_grain(d, first + k, k, out), id[k] = d->grains.id[first + k];
+    for (size_t k = 0; k < chunk.n; k++) id[k] = d->grains.id[first + k];
+    if (d->now.pending > 0)
+      for (size_t k = 0; k < chunk.n; k++) show_grain(d, first + k, &unused, k, out);
+    else
+      show_grains(&d->grains, first, chunk.n, out);
     for (int a = 0; a < 3; a++) {
       chunk.r[a] = positions ? out[a] : NULL;
       chunk.c[a] = out[3 + a];
