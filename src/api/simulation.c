@@ -123,7 +123,6 @@ gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *optio
                  ->create(&s->model, s->scene.run.seed, o.stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
   s->model.start = NULL;
   gg_files_positions_free(&start);
-  if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
   return gg_api_simulation_hand_over(s, status, simulation, err);
 }
 

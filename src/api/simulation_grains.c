@@ -61,7 +61,6 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   GG_COPY_OPTIONS(o, options);
   GG_TRY(gg_api_simulation_prepare(&counted, o.stop, o.context, &s, err));
   gg_status status = create(s, grains, n, o.stream, err);
-  if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
   return gg_api_simulation_hand_over(s, status, simulation, err);
 }
 
@@ -89,7 +88,6 @@ static gg_status go_on(gg_simulation *s, const gg_model *model, const gg_grains 
   }
   gg_api_simulation_collect(s);
   ops->destroy(s->engine);
-  ops->keep_sums(engine, true);
   s->engine = engine;
   return GG_OK;
 }

@@ -13,15 +13,14 @@ enum {
   ROUGH = 1,
   FRICTIONAL = 2,
   MIXTURE = 4,
-  SUMS = 8,
-  SHEARED = 16,
-  WALLS = 32,
-  GRAVITY = 64,
-  COUETTE = 128,
-  NOISE = 256,
-  NEARLY = 512,
-  IN_BATH = 1024,
-  TWO_WAYS = 2048 /* also timed in two ways: by another path, on threads */
+  SHEARED = 8,
+  WALLS = 16,
+  GRAVITY = 32,
+  COUETTE = 64,
+  NOISE = 128,
+  NEARLY = 256,
+  IN_BATH = 512,
+  TWO_WAYS = 1024 /* also timed in two ways: by another path, on threads */
 };
 
 /* A scene with a feature, and the scene it is compared with; the first row is compared with itself. */
@@ -34,13 +33,11 @@ static const feature md_features[] = {
     {"smooth", "smooth", TWO_WAYS},
     {"rough", "smooth", ROUGH},
     {"two species", "smooth", MIXTURE},
-    {"stress measured", "smooth", SUMS},
     {"walls", "smooth", WALLS},
     {"walls, gravity", "walls", WALLS | GRAVITY},
     {"sheared smooth", "smooth", SHEARED},
-    {"sheared rough", "smooth", SHEARED | ROUGH},
+    {"sheared rough", "smooth", SHEARED | ROUGH | TWO_WAYS},
     {"sheared frictional", "sheared rough", SHEARED | FRICTIONAL},
-    {"sheared rough, stress measured", "sheared rough", SHEARED | ROUGH | SUMS | TWO_WAYS},
     {"moving walls, rough", "sheared rough", SHEARED | ROUGH | COUETTE},
     {"white noise, e = 0.99", "smooth", NOISE | NEARLY},
     {"white noise, e = 0.9", "smooth", NOISE},
@@ -53,12 +50,10 @@ static const feature dsmc_features[] = {
     {"frictional", "rough", FRICTIONAL},
     {"two species", "smooth", MIXTURE | TWO_WAYS},
     {"two species, rough", "rough", MIXTURE | ROUGH},
-    {"smooth, stress measured", "smooth", SUMS},
-    {"sheared smooth", "smooth", SHEARED},
-    {"sheared smooth, stress measured", "sheared smooth", SHEARED | SUMS | TWO_WAYS},
-    {"sheared rough, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | ROUGH},
-    {"sheared frictional, stress measured", "sheared rough, stress measured", SHEARED | SUMS | FRICTIONAL},
-    {"sheared, two species, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | MIXTURE | TWO_WAYS},
+    {"sheared smooth", "smooth", SHEARED | TWO_WAYS},
+    {"sheared rough", "sheared smooth", SHEARED | ROUGH},
+    {"sheared frictional", "sheared rough", SHEARED | FRICTIONAL},
+    {"sheared, two species", "sheared smooth", SHEARED | MIXTURE | TWO_WAYS},
 };
 static const feature dsmc_wall_features[] = {{"moving walls", "moving walls", SHEARED | COUETTE}};
 
@@ -77,7 +72,7 @@ typedef struct engine_bench {
 static const engine_bench md = {
     GG_MD,
     "collisions",
-    "Elastic smooth spheres in a periodic box, no stress measured: millions of collisions per CPU-second on one core, "
+    "Elastic smooth spheres in a periodic box, not sampled: millions of collisions per CPU-second on one core, "
     "median (slowest - fastest) of repeats, time per collision",
     "Cost of a scene's features: collisions between grains per CPU-second over that of the scene in column `against`, "
     "timed in turn; median (least - largest) of repeats. Elastic, smooth and periodic unless the row names another "
@@ -97,7 +92,7 @@ static const engine_bench md = {
 static const engine_bench dsmc = {
     GG_DSMC,
     "times",
-    "Elastic smooth spheres (the kernel of free cooling), nothing measured: nanoseconds per accepted collision, CPU "
+    "Elastic smooth spheres (the kernel of free cooling), not sampled: nanoseconds per accepted collision, CPU "
     "time of one core, median (least - largest) of repeats",
     "Cost of a scene's features: nanoseconds per accepted collision over those of the scene in column `against`, timed "
     "in turn; median (least - largest) of repeats. Elastic; sheared: e = 0.9; rough: beta = 0; frictional: mu = "
@@ -119,7 +114,7 @@ static const engine_bench dsmc_walls = {
     .engine = GG_DSMC,
     .rates = "walls",
     .rates_caption =
-        "Smooth spheres, e = 0.9, between moving walls, nothing measured: nanoseconds per accepted collision, flights, "
+        "Smooth spheres, e = 0.9, between moving walls, not sampled: nanoseconds per accepted collision, flights, "
         "contacts with walls and order by height included, CPU time of one core, median (least - largest) of repeats",
     .unit = "ns per collision",
     .features = dsmc_wall_features,
@@ -149,7 +144,7 @@ static void add_walls(gg_scene *s, bool gravity)
 static gg_timed_scene timed_scene(const gg_bench *b, const engine_bench *e, int kind, double phi, int64_t n)
 {
   const unsigned has = e->features[kind].has;
-  gg_timed_scene c = {.scene = gg_bench_scene(b, e->engine, phi, n), .sums = has & SUMS};
+  gg_timed_scene c = {.scene = gg_bench_scene(b, e->engine, phi, n)};
   gg_scene *s = &c.scene;
   c.against = find(e, e->features[kind].against);
   s->flow = has & COUETTE ? GG_COUETTE : has & SHEARED ? GG_USF : has & NOISE ? GG_HSS : GG_EQUILIBRIUM;
@@ -206,7 +201,7 @@ static gg_status measure_rates(gg_bench *b, const engine_bench *e, gg_error *err
     for (int d = 0; d < e->n_densities; d++) {
       gg_timing r;
       const gg_scene s = timed_scene(b, e, 0, e->densities[d], e->sizes[i]).scene;
-      GG_TRY(gg_bench_throughput_measure(&s, false, warmup_of(e, e->sizes[i], quick), quick ? 3 : 7,
+      GG_TRY(gg_bench_throughput_measure(&s, warmup_of(e, e->sizes[i], quick), quick ? 3 : 7,
                                          gg_bench_seconds(b, quick ? 0.3 : 1), &r, err));
       put_rate(b, t, e, row, 1 + d, e->densities[d], e->sizes[i], &r);
       gg_bench_report(b, "phi %g N %lld: %.3g M/s", e->densities[d], (long long)e->sizes[i], r.rate.value * 1e-6);
@@ -385,7 +380,7 @@ gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
   return measure_threads(b, &dsmc, 0.3, sizes, b->options->threads, err);
 }
 
-/* Rows of the overview: both engines in shear at e = 0.9, with the stress measured as in a run. */
+/* Rows of the overview: both engines in shear at e = 0.9. */
 static const struct {
   const char *name;
   double beta, mu;
@@ -404,7 +399,7 @@ static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind
     gg_scene s = gg_bench_scene(b, engine, phi, n);
     s.collision.beta[0] = kernels[k].beta;
     s.collision.mu[0] = kernels[k].mu;
-    GG_TRY(gg_bench_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r, err));
+    GG_TRY(gg_bench_throughput_measure(&s, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r, err));
     gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r.rate.value * 1e-6, 1e9 / r.rate.value);
     gg_bench_table_add(b, t, gg_bench_rate(&r, md.unit), NULL, "{s:s, s:s, s:f, s:I}", "engine", name, "kernel",
                        kernels[k].name, "phi", phi, "particles", (json_int_t)n);
@@ -416,7 +411,7 @@ static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind
 gg_status gg_bench_overview(gg_bench *b, gg_error *err)
 {
   static const char caption[] =
-      "Collisions per CPU-second, one core; uniform shear, e = 0.9, stress measured; median of repeats";
+      "Collisions per CPU-second, one core; uniform shear, e = 0.9; median of repeats";
   const int n_sizes = b->options->quick ? 2 : 3, two = b->options->threads > 2 ? 2 : b->options->threads;
   gg_bench_table *t = gg_bench_table_new(b, "throughput", caption, 3, err);
   if (!t) return GG_FAILED;

@@ -87,9 +87,9 @@ static gg_status compare(timed_run c[2], int repeats, double seconds, cost_of_ob
   return GG_OK;
 }
 
-/* Time the scene with `rheology` and this observable, and with rheology alone (for rheology itself: the engine without
- * sampling and collision sums), in turn: `repeats` stretches of at least `seconds` each, after `warmup` collisions per
- * grain. The sampling interval is that of any run. */
+/* Time the scene with `rheology` and this observable, and with rheology alone (for rheology itself: with the engine
+ * that is not sampled), in turn: `repeats` stretches of at least `seconds` each, after `warmup` collisions per grain.
+ * The sampling interval is that of any run. */
 static gg_status measure_cost(const gg_scene *scene, const gg_observable *o, double warmup, int repeats, double seconds,
                               cost_of_observable *cost, gg_error *err)
 {
@@ -97,10 +97,7 @@ static gg_status measure_cost(const gg_scene *scene, const gg_observable *o, dou
   bool itself = o->flag == GG_MEASURE_RHEOLOGY;
   gg_status status = start(&c[0], scene, GG_MEASURE_RHEOLOGY, warmup, err);
   if (status == GG_OK) status = start(&c[1], scene, GG_MEASURE_RHEOLOGY | o->flag, warmup, err);
-  if (status == GG_OK && itself) {
-    c[0].bare = true;
-    c[0].replica.engine->ops->keep_sums(c[0].replica.engine, false);
-  }
+  if (status == GG_OK) c[0].bare = itself;
   if (status == GG_OK) status = compare(c, repeats < MOST_REPEATS ? repeats : MOST_REPEATS, seconds, cost, err);
   for (int k = 0; k < 2; k++)
     if (c[k].replica.engine) gg_run_replica_clear(&c[k].replica);

@@ -66,7 +66,7 @@ static gg_status measure(gg_bench *b, gg_bench_table *t, const single *s, double
   gg_bench_value v;
   gg_timing r;
   GG_TRY(s->start ? measure_start(&scene, repeats, &v, err)
-                  : gg_bench_throughput_measure(&scene, false, quick ? 10 : 20, repeats,
+                  : gg_bench_throughput_measure(&scene, quick ? 10 : 20, repeats,
                                                 gg_bench_seconds(b, quick ? 0.2 : 0.6), &r, err));
   if (!s->start) v = gg_bench_time(&r, "ns per collision");
   const int row = gg_bench_table_row(t, "%s", s->name);
@@ -85,7 +85,7 @@ gg_status gg_bench_scenes(gg_bench *b, gg_error *err)
   static const char *const head[] = {"scene", "engine", "phi", "N", "ns"};
   gg_bench_table *t =
       gg_bench_table_new(b, "scenes",
-                         "Single scenes, nothing measured: nanoseconds of CPU time per collision between grains; "
+                         "Single scenes, not sampled: nanoseconds of CPU time per collision between grains; "
                          "median (least - largest) of repeats. Smooth unless the name has beta; bath: drag 0.1; start: "
                          "placement of the grains",
                          2, err);

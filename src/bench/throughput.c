@@ -80,7 +80,6 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   ops = r->engine->ops;
   if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);
   if (c->prepare) c->prepare(r->engine);
-  ops->keep_sums(r->engine, c->sums);
   r->guess = (uint64_t)model.n / 4 + 1000;
   return advance_by(r->engine, (uint64_t)(warmup * (double)model.n / 2) + 1, &done, err);
 }
@@ -166,10 +165,10 @@ gg_status gg_bench_throughput_compare(const gg_timed_scene *c, int n, double war
   return status;
 }
 
-gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
-                                      gg_timing *out, gg_error *err)
+gg_status gg_bench_throughput_measure(const gg_scene *scene, double warmup, int repeats, double seconds, gg_timing *out,
+                                      gg_error *err)
 {
-  const gg_timed_scene only = {.scene = *scene, .sums = sums, .against = 0};
+  const gg_timed_scene only = {.scene = *scene, .against = 0};
   return gg_bench_throughput_compare(&only, 1, warmup, repeats, seconds, out, err);
 }
 

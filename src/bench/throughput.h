@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Speed of an engine on a scene: collisions per second, with or without collision sums. */
+/* Speed of an engine on a scene: collisions per second. */
 #ifndef GG_THROUGHPUT_H
 #define GG_THROUGHPUT_H
 
@@ -15,8 +15,8 @@ typedef struct gg_timing {
 
 /* Start the scene near its steady state, advance `warmup` collisions per grain, then time `repeats` stretches of at
  * least `seconds` of CPU time each. */
-gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
-                                      gg_timing *out, gg_error *err);
+gg_status gg_bench_throughput_measure(const gg_scene *scene, double warmup, int repeats, double seconds, gg_timing *out,
+                                      gg_error *err);
 
 /* Median, least and largest of n numbers, which are sorted. */
 gg_bench_value gg_bench_spread(const char *unit, double *values, int n);
@@ -31,7 +31,6 @@ gg_bench_value gg_bench_inverse(gg_bench_value value, double numerator);
 enum { GG_MOST_TIMED = 16 };
 typedef struct gg_timed_scene {
   gg_scene scene;
-  bool sums;
   int against;                        /* index of the scene that it is compared with */
   int threads;                        /* threads of the engine; 0: one */
   bool wall_time;                     /* measure wall time, not processor time */

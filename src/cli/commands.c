@@ -78,10 +78,10 @@ const gg_command gg_cli_commands[] = {
      gg_cli_page_main},
     {"bench", "[md|dsmc|observables|error|compare A B]",
      "Speed of the engines: collisions per second by kernel, density and size; run time against error",
-     "Without an argument: both engines in uniform shear at e = 0.9 with the stress measured, one core, median of "
+     "Without an argument: both engines in uniform shear at e = 0.9, one core, median of "
      "repeats. Then single scenes: walls and baths at three densities, white noise, placing grains. Then two threads, "
      "alone and beside a busy neighbour, which is another thread that spins.\nmd: elastic smooth spheres by size and "
-     "density; cost of roughness, shear, walls, gravity, white noise, baths, a second species and stress measurement; "
+     "density; cost of roughness, shear, walls, gravity, white noise, baths and a second species; "
      "gain of threads within one run.\ndsmc: nanoseconds per accepted collision, also between walls; gain of the block "
      "kernels over the plain loop and of threads within one ensemble.\nobservables: run time that each observable "
      "adds, for both engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a "

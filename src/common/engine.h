@@ -137,12 +137,10 @@ typedef struct gg_engine_ops {
    * event, in dsmc at the end of a step, and *elapsed is the time gone. The next call may be a new advance; or `go_on`,
    * also after save and restore, which completes the interrupted advance, bit for bit. */
   gg_status (*advance)(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err);
-  /* Keep these sums over collisions, or not (at creation they are not kept). */
-  void (*keep_sums)(gg_engine *engine, bool keep);
   /* Count from now on the images of the box that grains enter; it changes no bit of the trajectory, and a restored
    * engine continues. NULL where the engine has no images. */
   gg_status (*keep_images)(gg_engine *engine, gg_error *err);
-  /* Return the sums since the last read, and reset them. */
+  /* Return the sums over collisions since the last read, or the start, and reset them. */
   void (*take_sums)(gg_engine *engine, gg_collision_sums *sums);
   /* Show every collision between grains to `callback` from now on; NULL: none. The callback costs time; a dsmc engine
    * also leaves its block kernels, in which grains change places, until it has no callback. An engine restored from a

@@ -94,7 +94,6 @@ gg_status gg_common_engine_continue(gg_engine *engine, const gg_model *model, gg
     status = engine->ops->create_with(model, 0, 0, &g.grains, engine, next, err);
   }
   gg_common_engine_grains_clear(&g);
-  if (status == GG_OK) (*next)->ops->keep_sums(*next, true);
   return status;
 }
 

@@ -30,7 +30,6 @@ typedef struct gg_dsmc_state {
   double lost; /* energy lost in collisions that the Gaussian thermostat has not returned */
   gg_dsmc_majorant majorant[GG_PAIRS];
   gg_collision_sums transfer;
-  bool sums;
   int power; /* velocities are 2^power times those of the start (rescale) */
   gg_dsmc_advance advance;
 } gg_dsmc_state;

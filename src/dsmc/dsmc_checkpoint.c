@@ -89,22 +89,13 @@ static bool is_schedule(const gg_dsmc *d)
   return good;
 }
 
-/* Restore the state. It is read as bytes first, since a bool other than 0 or 1 is no value of its type. */
-static gg_status get_state(gg_dsmc *d, const gg_archive *a, gg_error *err)
-{
-  unsigned char bytes[sizeof d->now];
-  GG_TRY(gg_base_archive_get(a, "dsmc/state", GG_ITEM_U8, bytes, sizeof bytes, err));
-  if (bytes[offsetof(gg_dsmc_state, sums)] > 1) return gg_base_fail(err, GG_BAD_FILE, DAMAGED, "what it sums");
-  memcpy(&d->now, bytes, sizeof bytes);
-  return is_state(d) ? GG_OK : gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its state");
-}
-
 gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
 {
   GG_TRY(gg_dsmc_accepts(model, err));
   gg_dsmc *d;
   GG_TRY(gg_dsmc_allocate(model, &d, err));
-  gg_status status = get_state(d, archive, err);
+  gg_status status = gg_base_archive_get(archive, "dsmc/state", GG_ITEM_U8, &d->now, sizeof d->now, err);
+  if (status == GG_OK && !is_state(d)) status = gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its state");
   if (status == GG_OK) status = gg_dsmc_ensemble_restore(&d->ensemble, archive, err);
   if (status == GG_OK && d->schedule)
     status = gg_base_archive_get(archive, schedule_item, GG_ITEM_U8, d->schedule,

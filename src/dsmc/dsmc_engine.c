@@ -143,11 +143,6 @@ static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stre
   return GG_OK;
 }
 
-static void keep_sums(gg_engine *engine, bool keep)
-{
-  dsmc_of(engine)->now.sums = keep;
-}
-
 static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 {
   gg_dsmc_state *s = &dsmc_of(engine)->now;
@@ -312,7 +307,6 @@ const gg_engine_ops gg_dsmc_ops = {
     .create_with = create_with,
     .destroy = gg_dsmc_destroy,
     .advance = advance,
-    .keep_sums = keep_sums,
     .take_sums = take_sums,
     .set_callback = gg_dsmc_set_callback,
     .callback_slows = gg_dsmc_callback_slows,

@@ -9,9 +9,8 @@ gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
   /* With spins, even a smooth pair needs a kernel that moves spins together with velocities. */
   if (m->rule != GG_SMOOTH && features.rule == GG_SMOOTH) features.rule = GG_ROUGH;
   if (m->shear_rate != 0) features.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
-  if (d->heat == GG_HEAT_SCALES) features.sums = GG_DSMC_LOSS;
-  if (d->now.sums) features.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
-  if (d->tables || m->kicks) features = gg_dsmc_features_of_own(features, m->boltzmann);
+  features.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
+  if (d->tables || m->kicks) features = gg_dsmc_features_of_own(features);
   return features;
 }
 
@@ -55,7 +54,6 @@ void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass)
   s->clamped += pass->clamped;
   s->transfer.collisions[pair] += pass->collisions;
   s->lost += pass->loss;
-  if (!s->sums) return;
   s->transfer.loss[pair] += pass->loss + pass->given;
   s->transfer.given[pair] += pass->given;
   for (int a = 0; a < 3; a++)

@@ -13,7 +13,7 @@ enum gg_md_boundary { GG_MD_PERIODIC, GG_MD_SHEARED, GG_MD_WALLED, GG_MD_FALLING
 const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, gg_md_search_kind kind, enum gg_md_boundary boundary,
                                       bool mixture);
 
-/* Select the kernel and the resolutions that this model and its collision sums need. */
+/* Select the kernel and the resolutions that this model needs. */
 void gg_md_select(gg_md *e);
 
 #endif

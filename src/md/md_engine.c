@@ -232,13 +232,6 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
-static void keep_sums(gg_engine *engine, bool keep)
-{
-  gg_md *e = (gg_md *)engine;
-  e->k.keeps_sums = keep;
-  gg_md_select(e);
-}
-
 static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 {
   gg_md *e = (gg_md *)engine;
@@ -346,7 +339,6 @@ const gg_engine_ops gg_md_ops = {
     .create_with = create_with,
     .destroy = destroy,
     .advance = advance,
-    .keep_sums = keep_sums,
     .keep_images = gg_md_keep_images,
     .take_sums = take_sums,
     .set_callback = set_callback,

@@ -141,7 +141,6 @@ typedef struct gg_md_counts {
   double image_turns;       /* edges by which the image above has moved before the epoch, beside the offset */
   double fractional_shift, common_shift; /* of co-moving rows (row_motion.c), at the start of the epoch */
   int32_t row_shift, image_shift;
-  uint32_t keeps_sums;
   int32_t power;              /* velocities are 2^power times those of the start (rescale) */
   gg_collision_sums transfer; /* last: it is long */
 } gg_md_counts;

@@ -5,7 +5,7 @@
 
 #include "md/md_state.h"
 
-/* resolve.c: select the resolutions that this model, its collision sums and its callback need. */
+/* resolve.c: select the resolutions that this model and its callback need. */
 void gg_md_select_resolution(gg_md *e);
 
 /* collision_callback.c: report the collision to the callback and resolve it by e->resolve_shown. */

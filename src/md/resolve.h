@@ -12,7 +12,7 @@
 
 typedef struct gg_md_resolve_features {
   gg_rule rule;
-  bool mixture, contact_time, sums;
+  bool mixture, contact_time;
   bool gaussian; /* thermostat: lost energy is returned by a slower clock */
   bool spins;    /* at walls; without spins a wall acts on the centre */
   bool own; /* the contact is made at the collision: e depends on the relative normal speed, or kicks; or torques */
@@ -132,8 +132,7 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   gg_kick_centres(contact->im1, contact->im2, J, &one->v, &two->v);
   if (f.rule != GG_SMOOTH) gg_kick_spins(contact->ik1 * scale, contact->ik2 * scale, k, J, &e->spin[i], &e->spin[j]);
   e->k.transfer.collisions[q]++;
-  if (f.sums)
-    gg_md_sum_pair(&e->k.transfer, q, e->model.sigma[q] * scale, k, J, gg_md_energy_loss(f, contact, k, g, J, scale));
+  gg_md_sum_pair(&e->k.transfer, q, e->model.sigma[q] * scale, k, J, gg_md_energy_loss(f, contact, k, g, J, scale));
   if (f.gaussian) gg_md_return_energy(e, gg_md_kinetic_loss(contact, v1, v2, one->v, two->v));
 }
 
@@ -167,7 +166,6 @@ GG_INLINE void gg_md_resolve_surface(gg_md *e, gg_md_resolve_features f, uint32_
   }
   gg_surface_sums *t = &e->k.transfer.surface[w];
   t->collisions++;
-  if (!f.sums) return;
   for (int c = 0; c < 3; c++) t->impulse[c] += gg_along(&hit.J, c);
   t->loss += gg_surface_heat(contact, k, &hit);
 }

@@ -40,8 +40,7 @@ bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3])
     if (isnan(k->kick[s].at)) return false;
   if (!(fabs(k->image_turns) < 1e15)) return false;
   return are_numbers(others, sizeof others / sizeof *others) && k->row_shift >= 0 && k->row_shift < cells[0] &&
-         k->image_shift >= 0 && k->image_shift < cells[0] && k->keeps_sums <= 1 && k->power > -1000000000 &&
-         k->power < 1000000000;
+         k->image_shift >= 0 && k->image_shift < cells[0] && k->power > -1000000000 && k->power < 1000000000;
 }
 
 static bool is_in_box(const gg_md *e, gg_vec r, double boxes)

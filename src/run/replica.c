@@ -54,7 +54,6 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
     gg_run_replica_clear(r);
     return status;
   }
-  r->engine->ops->keep_sums(r->engine, true);
   GG_TRY(keep_images(r, err));
   r->clock.interval = GG_SAMPLING_INTERVAL / gg_common_model_collision_rate(model, model->temperature0);
   sample_row(r, 0);

@@ -128,7 +128,6 @@ static inline void lab_average(gg_engine *g, const gg_model *m, double warmup, i
   const int samples = 10;
   double n = (double)m->n;
   lab_advance(g, INFINITY, (uint64_t)(warmup * n / 2));
-  gg_dsmc_ops.keep_sums(g, true);
   for (int b = 0; b < blocks; b++) {
     lab_view sum = {0};
     double time = 0;

@@ -80,7 +80,6 @@ static void sums_account_for_the_loss(void **state)
     if (rough) s.collision.mu[0] = 0.4;
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 7);
-    gg_dsmc_ops.keep_sums(g, true);
     double before = energy(g, &m);
     lab_advance(g, INFINITY, 10 * (uint64_t)m.n);
     gg_collision_sums t;

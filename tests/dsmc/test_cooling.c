@@ -11,7 +11,6 @@ static void cool(const gg_model *m, uint64_t seed, int blocks, cooling *c)
 {
   gg_engine *g = lab_engine(m, seed);
   gg_error err = {0};
-  gg_dsmc_ops.keep_sums(g, true);
   for (int b = -3; b < blocks; b++) {
     double a2 = 0, zeta = 0, ratio = 0;
     const int samples = 20;

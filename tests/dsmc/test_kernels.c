@@ -164,7 +164,6 @@ static void same_bits_on(const gg_model *m)
     ((gg_dsmc *)g)->ensemble.kernels = gg_dsmc_kernels_for(set);
     gg_error err = {0};
     gg_archive a = {0};
-    gg_dsmc_ops.keep_sums(g, true);
     lab_advance(g, INFINITY, 5 * (uint64_t)m->n);
     assert_int_equal(gg_dsmc_ops.save(g, &a, &err), GG_OK);
     gg_dsmc_ops.destroy(g);

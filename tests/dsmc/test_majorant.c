@@ -16,7 +16,6 @@ static void run(double forced, lab_mean *rate, lab_mean *loss, uint64_t *overflo
   gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.2, 1, -1, 2000);
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 17);
-  gg_dsmc_ops.keep_sums(g, true);
   gg_collision_sums t;
   for (int b = 0; b < 20; b++) {
     double time = 0;
@@ -113,7 +112,6 @@ static void shear(gg_dsmc_path path, double forced, uint64_t seed, mixed *out)
   for (int q = 0; q < GG_PAIRS && path == GG_DSMC_PLAIN; q++) d->path[q] = path;
   assert_true((d->path[0] == GG_DSMC_PLAIN) == (path == GG_DSMC_PLAIN));
   lab_advance(g, INFINITY, 40 * (uint64_t)m.n / 2);
-  gg_dsmc_ops.keep_sums(g, true);
   uint64_t before = d->now.overflows;
   for (int b = 0; b < 20; b++) block(g, &m, forced, out);
   printf("# %s, majorant %g thermal speeds: %llu overflows\n", path == GG_DSMC_PLAIN ? "one by one" : "blocks", forced,

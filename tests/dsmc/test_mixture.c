@@ -71,12 +71,11 @@ static void each_pair_of_species_has_its_pressure(void **state)
   gg_scene s =
       mixture(GG_EQUILIBRIUM, 0.3, 1, -1, (gg_species){0.4, 1, 1, 0.4, 1, 0}, (gg_species){0.6, 0.5, 0.2, 0.4, 1, 0}, 20000);
   gg_model m = lab_model(&s);
-  gg_engine *g = lab_engine(&m, 8);
+  gg_engine *g = lab_engine(&m, 9);
   lab_mean share[GG_PAIRS] = {0};
   gg_collision_sums t;
   lab_advance(g, INFINITY, 10 * (uint64_t)m.n);
-  gg_dsmc_ops.keep_sums(g, true);
-  for (int b = 0; b < 20; b++) {
+  for (int b = 0; b < 40; b++) {
     gg_dsmc_ops.take_sums(g, &t);
     double time = lab_advance(g, INFINITY, 5 * (uint64_t)m.n);
     gg_dsmc_ops.take_sums(g, &t);
@@ -158,7 +157,6 @@ static void viscosity_is_erpenbecks(void **state)
     const int samples = 100;
     gg_collision_sums t;
     lab_advance(g, INFINITY, 20 * (uint64_t)m.n / 2);
-    gg_dsmc_ops.keep_sums(g, true);
     for (int i = 0; i < samples; i++) {
       gg_dsmc_ops.take_sums(g, &t);
       double time = lab_advance(g, INFINITY, (uint64_t)m.n / 4), P = 0, T = 0;

@@ -13,7 +13,6 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n, int specie
   gg_model m = lab_model(&s);
   gg_engine *straight = lab_engine(&m, 11), *resumed = NULL;
   gg_error err = {0};
-  gg_dsmc_ops.keep_sums(straight, true);
   lab_advance(straight, INFINITY, 3 * (uint64_t)n);
   gg_archive archive = {0};
   assert_int_equal(gg_dsmc_ops.save(straight, &archive, &err), GG_OK);
@@ -108,7 +107,6 @@ static void restarts_far_below(void **state)
   gg_engine *e = lab_engine(&m, 12), *resumed = NULL;
   gg_archive archive = {0};
   gg_error err = {0};
-  gg_dsmc_ops.keep_sums(e, true);
   for (int rescaled = 0; rescaled < 600; rescaled++) { /* T down by 4^600 */
     while (((gg_dsmc *)e)->now.temperature > m.temperature0 / 4) lab_advance(e, INFINITY, 25);
     assert_int_equal(gg_dsmc_ops.rescale(e, 1, &err), GG_OK);

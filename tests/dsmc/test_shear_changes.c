@@ -85,7 +85,6 @@ static void work_and_heat_balance(void **state)
     const gg_model m = model(dense ? 0.3 : 0.02, 0.9, 0.5, 5000);
     gg_engine *g = lab_engine(&m, 3);
     double unused;
-    gg_dsmc_ops.keep_sums(g, true);
     lab_advance(g, 2, UINT64_MAX);
     for (int k = 0; k < RATES; k++) {
       shear(g, rates[k]);

@@ -206,7 +206,6 @@ static void the_plain_path_balances_energy(void **state)
     double sum = 0;
     if (big) assert_int_equal(gg_dsmc_ops.set_callback(g, add_normal_speed, &sum, &err), GG_OK);
     lab_view before = lab_snapshot(g);
-    gg_dsmc_ops.keep_sums(g, true);
     lab_advance(g, INFINITY, 2 * (uint64_t)m.n);
     lab_view after = lab_snapshot(g);
     gg_collision_sums t;

@@ -31,7 +31,6 @@ static gg_archive outcome(const gg_model *m, int first, int then)
   if (first) gg_dsmc_ops.threads(g, first);
   assert_int_equal(((gg_dsmc *)g)->ensemble.segments, 8);
   assert_true((((gg_dsmc *)g)->ensemble.pool != NULL) == (first > 1));
-  gg_dsmc_ops.keep_sums(g, true);
   lab_advance(g, INFINITY, (uint64_t)m->n);
   if (then) gg_dsmc_ops.threads(g, then);
   lab_advance(g, INFINITY, (uint64_t)m->n / 2);
@@ -141,7 +140,6 @@ static void resumes_with_other_threads(void **state)
     gg_error err = {0};
     gg_archive half = {0}, end = {0};
     gg_dsmc_ops.threads(straight, 2);
-    gg_dsmc_ops.keep_sums(straight, true);
     lab_advance(straight, INFINITY, (uint64_t)m.n / 3);
     save(straight, &half);
     lab_advance(straight, INFINITY, (uint64_t)m.n);

@@ -72,7 +72,6 @@ static void balance(gg_scene *s)
 {
   gg_model m = lab_model(s);
   gg_engine *g = lab_engine(&m, 3);
-  g->ops->keep_sums(g, true);
   view before = view_of(g, &m);
   const double elapsed = advance(g, INFINITY, (uint64_t)(4 * m.n));
   view after = view_of(g, &m);
@@ -139,13 +138,11 @@ static void instructions_leave_the_plain_bits(gg_scene s, bool blocks)
   gg_engine *plain = lab_engine(&m, 4);
   assert_true((((gg_dsmc_channel *)plain)->cells.block > 1) == blocks);
   ((gg_dsmc_channel *)plain)->plain = true;
-  plain->ops->keep_sums(plain, true);
   advance(plain, INFINITY, (uint64_t)(5 * m.n));
   for (gg_instructions set = 0; set < GG_INSTRUCTION_SETS; set++) {
     if (!gg_simd_instructions_run_here(set)) continue;
     gg_engine *fast = lab_engine(&m, 4);
     ((gg_dsmc_channel *)fast)->collide = gg_dsmc_channel_collide_of[set];
-    fast->ops->keep_sums(fast, true);
     advance(fast, INFINITY, (uint64_t)(5 * m.n));
     lab_same_archive(fast, plain);
     fast->ops->destroy(fast);
@@ -165,7 +162,6 @@ static void threads_leave_bits(gg_scene s)
 {
   gg_model m = lab_model(&s);
   gg_engine *one = lab_engine(&m, 4);
-  one->ops->keep_sums(one, true);
   const gg_dsmc_channel *d = (gg_dsmc_channel *)one;
   printf("# %d slabs of %d cells, %d parts\n", d->slabs, d->cells.n, d->parts);
   assert_true(d->slabs >= 4 && d->parts > 1);
@@ -179,7 +175,6 @@ static void threads_leave_bits(gg_scene s)
     gg_engine *more = lab_engine(&m, 4);
     gg_engine_state at;
     more->ops->threads(more, threads);
-    more->ops->keep_sums(more, true);
     advance(more, INFINITY, (uint64_t)(5 * m.n));
     more->ops->state(more, &at);
     assert_true(at.others_cpu > 0);
@@ -227,8 +222,6 @@ static void stopped_runs_end_as_uninterrupted_ones(void **state)
     gg_engine *straight = lab_engine(&m, 8);
     m.stop = &stop;
     gg_engine *cut = lab_engine(&m, 8);
-    straight->ops->keep_sums(straight, true);
-    cut->ops->keep_sums(cut, true);
     if (callback) assert_int_equal(straight->ops->set_callback(straight, see, &seen[0], &err), GG_OK);
     if (callback) assert_int_equal(cut->ops->set_callback(cut, see, &seen[1], &err), GG_OK);
     const double whole = advance(straight, INFINITY, (uint64_t)(3 * m.n));
@@ -274,7 +267,6 @@ static void stops_under_any_gravity(void **state)
     gg_engine *g = lab_engine(&m, 8);
     gg_error err;
     double gone;
-    g->ops->keep_sums(g, true);
     assert_int_equal(g->ops->advance(g, INFINITY, UINT64_MAX, &gone, &err), GG_INTERRUPTED);
     const gg_collision_sums t = taken(g);
     const double contacts = (double)(t.surface[0].collisions + t.surface[1].collisions);
@@ -410,7 +402,6 @@ static void equilibrium(double phi, double height, int blocks)
   gg_scene s = scene_of(GG_COUETTE, phi, height, 20000);
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 5);
-  g->ops->keep_sums(g, true);
   advance(g, INFINITY, (uint64_t)(100 * m.n));
   taken(g);
   lab_mean pressure[2] = {{0}, {0}}, core = {0}, even = {0};
@@ -520,7 +511,6 @@ static void column(double phi, double height, double g_over_T, int samples)
   s.gravity[1] = -g_over_T / 2;
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 6);
-  g->ops->keep_sums(g, true);
   advance(g, INFINITY, (uint64_t)(200 * m.n));
   taken(g);
   lab_mean weight = {0}, slope = {0};
@@ -587,7 +577,6 @@ static void core_has_the_viscosity(void **state)
   s.walls.accommodation = 1;
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 9);
-  g->ops->keep_sums(g, true);
   advance(g, INFINITY, (uint64_t)(150 * m.n));
   taken(g);
   lab_mean ratio = {0};
@@ -624,7 +613,6 @@ static void free_grains_carry_molecular_stress(void **state)
   gg_engine *g = lab_engine(&m, 10);
   const double T = m.surface[0].temperature, crossing = m.box[1] / sqrt(T), area = m.box[0] * m.box[2];
   const double n = (double)m.n / (area * (m.box[1] - 1)), stress = n * m.surface[1].velocity.x * sqrt(2 * T / M_PI);
-  g->ops->keep_sums(g, true);
   advance(g, 20 * crossing, UINT64_MAX);
   taken(g);
   lab_mean ratio = {0};

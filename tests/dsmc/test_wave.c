@@ -74,7 +74,6 @@ static void momentum_and_energy_are_conserved(void **state)
   for (int k = 0; k < GASES; k++) {
     gg_model m = model_of(k, 0.3);
     gg_engine *g = lab_engine(&m, 3);
-    g->ops->keep_sums(g, true);
     const view before = view_of(g, &m);
     assert_true(fabs(gg_wave_amplitude(&before.wave) / (0.3 * sqrt(2 * m.temperature0)) - 1) < 1e-12);
     advance(g, INFINITY, (uint64_t)(10 * m.n));
@@ -132,8 +131,6 @@ static void stopped_runs_end_as_uninterrupted_ones(void **state)
     gg_engine *straight = lab_engine(&m, 8);
     m.stop = &stop;
     gg_engine *cut = lab_engine(&m, 8);
-    straight->ops->keep_sums(straight, true);
-    cut->ops->keep_sums(cut, true);
     const double whole = advance(straight, INFINITY, (uint64_t)(3 * m.n));
     gg_status status = cut->ops->advance(cut, INFINITY, (uint64_t)(3 * m.n), &gone, &err);
     int stops = 0;
@@ -210,7 +207,6 @@ static void compare(const struct gas *gas, double sight)
     gg_error err = {0};
     double elapsed;
     assert_int_equal(g->ops->advance(g, INFINITY, (uint64_t)(10 * m[k].n), &elapsed, &err), GG_OK);
-    g->ops->keep_sums(g, true);
     for (int b = 0; b < 40; b++) {
       gg_collision_sums t;
       lab_view sum = {0};

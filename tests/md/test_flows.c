@@ -85,7 +85,6 @@ static void budgets_close(gg_scene s, uint64_t collisions)
   gg_md *e = md_create(&m, 3);
   gg_collision_sums t;
   work w = {.done = 0};
-  gg_md_ops.keep_sums(&e->base, true);
   gg_vec p0 = total_momentum(e);
   double E0 = kinetic(e) + potential(e, e->k.now), time = 0;
   follow_work(e, &w);
@@ -165,7 +164,6 @@ static void check_wall_stress(double beta, double mu)
   gg_md *e = md_create(&m, 3);
   gg_collision_sums t;
   md_collide(e, 400 * 300);
-  gg_md_ops.keep_sums(&e->base, true);
   gg_md_ops.take_sums(&e->base, &t);
   double time = 0, xy = 0, yy = 0, dt, first[2], last[2], arm = 0.5 * m.box[1] - 0.5;
   enum { SAMPLES = 6000 };
@@ -199,7 +197,6 @@ static void check_pressure(gg_scene s)
   gg_model m = md_model_of(&s);
   gg_md *e = md_create(&m, 4);
   double area = m.box[0] * m.box[2], sum[GG_MOST_SURFACES] = {0}, squares[GG_MOST_SURFACES] = {0}, mean = 0;
-  gg_md_ops.keep_sums(&e->base, true);
   for (int b = -2; b < BLOCKS; b++) { /* blocks -2 and -1: until it is in equilibrium */
     gg_collision_sums t;
     double middle = 0, time = 0, gone;

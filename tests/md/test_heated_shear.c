@@ -39,7 +39,6 @@ static void slow_shear_leaves_the_temperature(void **state)
   for (int c = 0; c < CASES; c++) {
     const gg_model m = model_of(c, 1e8); /* a* of 1e-4: hardly any work */
     gg_md *e = md_create(&m, 3);
-    gg_md_ops.keep_sums(&e->base, true);
     gg_collision_sums sums;
     double lost = 0, lowest = INFINITY, highest = 0;
     const double T0 = temperature(e), free_time = 1 / gg_common_model_collision_rate(&m, T0);
@@ -68,7 +67,6 @@ static void bits_do_not_depend_on_cuts(void **state)
     gg_engine *restored = NULL;
     gg_archive a = {0};
     const double time = 40 / gg_common_model_collision_rate(&m, m.temperature0);
-    gg_md_ops.keep_sums(&whole->base, true), gg_md_ops.keep_sums(&cut->base, true);
     for (int k = 0; k < 16; k++) advance(whole, time / 16);
     for (int k = 0; k < 8; k++) advance(cut, time / 16);
     assert_int_equal(gg_md_ops.save(&cut->base, &a, NULL), GG_OK);

@@ -64,7 +64,6 @@ static gg_model model_of(int k)
 static gg_md *create(const gg_model *m, int threads)
 {
   gg_md *e = md_create(m, 7);
-  gg_md_ops.keep_sums(&e->base, true);
   gg_md_use_threads(e, threads, false);
   assert_int_equal(threads > 1, e->parallel != NULL);
   return e;

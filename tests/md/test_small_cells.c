@@ -109,7 +109,6 @@ static gg_md *create(const gg_model *m, double width, bool small)
     gg_md_align_rows(e);
   }
   assert_int_equal(gg_md_begin(e, &err), GG_OK);
-  gg_md_ops.keep_sums(&e->base, true);
   return e;
 }
 

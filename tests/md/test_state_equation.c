@@ -21,7 +21,6 @@ static void pressure_at(double phi)
   gg_collision_sums t;
   double sum = 0, squares = 0;
   md_collide(e, N * 50);
-  gg_md_ops.keep_sums(&e->base, true);
   gg_md_ops.take_sums(&e->base, &t);
   for (int b = 0; b < BLOCKS; b++) {
     double time = md_collide(e, N * 12);

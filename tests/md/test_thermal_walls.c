@@ -60,7 +60,6 @@ static void free_flight(gg_flow flow, double below, double above, double share)
   const double T[2] = {m.surface[0].temperature, m.surface[1].temperature}, free = m.box[1] - 1;
   const double jump = m.surface[0].velocity.x - m.surface[1].velocity.x;
   gg_md *e = md_create(&m, 5);
-  gg_md_ops.keep_sums(&e->base, true);
   series q = {0}, P_yy = {0}, P_yx = {0}, taken = {0};
   for (int b = -SKIPPED; b < BLOCKS; b++) {
     const block now = advance(e, 40 * free / sqrt(T[0] < T[1] ? T[0] : T[1]));
@@ -118,7 +117,6 @@ static void walls_of_one_temperature_keep_it(void **state)
     const gg_model m = md_model_of(&s);
     gg_md *e = md_create(&m, 11);
     assert_true(m.temperature0 == 0.7 && m.contact_time == 0);
-    gg_md_ops.keep_sums(&e->base, true);
     series T[2] = {{0}}, theta = {0}, q = {0}, taken = {0};
     for (int b = -SKIPPED; b < BLOCKS; b++) {
       double now[2] = {0, 0}, spin = 0, flux = 0, heat = 0;
@@ -149,7 +147,6 @@ static void energy_changes_by_what_walls_take(void **state)
     s.walls.temperature[1] = 0.2, s.gravity[1] = -0.1;
     const gg_model m = md_model_of(&s);
     gg_md *e = md_create(&m, 3);
-    gg_md_ops.keep_sums(&e->base, true);
     double before = md_energy(e), y = 0, taken = 0, most = 0;
     for (uint32_t i = 0; i < e->n; i++) y -= m.mass[gg_md_species_of(&e->grain[i])] * e->grain[i].r.y;
     for (int k = 0; k < 20; k++) {

@@ -63,7 +63,6 @@ static void adds_up(void **state)
     const gg_engine_ops *ops = gg_common_engine_of(which);
     for (int k = 0; k < 2; k++) {
       assert_int_equal(ops->create(&m, 5, 0, &e[k], NULL), GG_OK);
-      ops->keep_sums(e[k], true);
       if (k) assert_int_equal(ops->set_callback(e[k], add, &shown, NULL), GG_OK);
       for (int i = 0; i < 7; i++) assert_int_equal(ops->advance(e[k], 1.0, UINT64_MAX, &gone, NULL), GG_OK);
       ops->take_sums(e[k], &t);

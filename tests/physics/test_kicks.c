@@ -87,7 +87,6 @@ static void check_books(gg_engine_kind kind, gg_scene *s)
   gg_collision_sums sums;
   double loss = 0, given = 0;
   assert_true(m.kicks);
-  g->ops->keep_sums(g, true);
   const double before = energy_of(&m, g);
   advance(g, INFINITY, 20 * (uint64_t)m.n);
   g->ops->take_sums(g, &sums);
@@ -274,7 +273,6 @@ static void check_resumed(gg_engine_kind kind, const gg_scene *s)
 {
   const gg_model m = model_of(s);
   gg_engine *g = engine_of(&m, kind, 9);
-  g->ops->keep_sums(g, true);
   assert_true(m.kicks || m.turns);
   for (int k = 0; k < 4; k++) {
     gg_archive archive = {0};

@@ -70,11 +70,6 @@ static gg_status advance(gg_engine *base, double dt, uint64_t most, double *elap
   return GG_OK;
 }
 
-static void keep_sums(gg_engine *e, bool open)
-{
-  (void)e, (void)open;
-}
-
 static void take_sums(gg_engine *base, gg_collision_sums *t)
 {
   fake_engine *e = (fake_engine *)base;
@@ -145,7 +140,6 @@ static const gg_engine_ops ops = {
     .create = create,
     .destroy = destroy,
     .advance = advance,
-    .keep_sums = keep_sums,
     .take_sums = take_sums,
     .state = state,
     .snapshot = snapshot,

@@ -229,23 +229,13 @@ GG_INLINE void run(gg_dsmc_features features, gg_dsmc_pass *pass, gg_dsmc_rng_la
   gg_dsmc_lane_rng_save(&samples.rng, lanes);
 }
 
-/* Instances: shear and sums, for one or two species. No scene needs other combinations (gg_dsmc_features_of_own). */
+/* Instances: shear and sums, for one or two species. No scene needs other combinations (gg_dsmc_features_of). */
 #define EACH_SAME(X, shear, sums) X(shear, sums, 0) X(shear, sums, 1)
-#define EACH_OWN(X)                                                                                                    \
+#define EACH(X)                                                                                                        \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_LOSS)                                                                        \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_STRESS)                                                                      \
   EACH_SAME(X, GG_DSMC_SHEARED_DILUTE, GG_DSMC_LOSS)                                                                   \
   EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_STRESS)
-#if GG_OWN
-#define EACH(X) EACH_OWN(X)
-#else
-#define EACH(X)                                                                                                        \
-  EACH_OWN(X)                                                                                                          \
-  EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_NO_SUMS)                                                                     \
-  EACH_SAME(X, GG_DSMC_SHEARED_DILUTE, GG_DSMC_NO_SUMS)                                                                \
-  EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_NO_SUMS)                                                                 \
-  EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_LOSS)
-#endif
 
 #define INSTANCE(shear, sums, same)                                                                                    \
   static void run_##shear##_##sums##_##same(gg_dsmc_pass *pass, gg_dsmc_rng_lanes *lanes, gg_rng *rng)                 \

@@ -40,7 +40,6 @@ static void call_back(gg_dsmc_pass *pass, const grain_pair *pair, gg_vec k, gg_v
 
 static void sums(gg_dsmc_features features, gg_dsmc_pass *pass, const gg_contact *contact, gg_vec k, gg_vec g, gg_vec J)
 {
-  if (features.sums == GG_DSMC_NO_SUMS) return;
   pass->loss += gg_energy_loss(contact, k, g, J);
   if (features.own) pass->given += gg_kicked_energy_loss(contact, k, g, J).given;
   if (features.sums == GG_DSMC_LOSS) return;

@@ -42,7 +42,6 @@ GG_INLINE bool gg_dsmc_sums_all(gg_dsmc_features features)
 /* Note the terms of the loss that do not follow from k and J. */
 GG_INLINE void gg_dsmc_note_loss(gg_dsmc_features features, gg_dsmc_note *note, gg_vd3 g, gg_vd3 J, gg_vd Jn)
 {
-  if (features.sums == GG_DSMC_NO_SUMS) return;
   const bool stress = features.sums == GG_DSMC_STRESS, one = gg_dsmc_sums_one(features);
   if (!stress || !one) note->Jg = gg_vd3_dot(J, g);
   if (!stress && !one) note->Jn = Jn;
@@ -127,7 +126,7 @@ GG_INLINE void gg_dsmc_sums_collect(gg_dsmc_features features, gg_dsmc_sums *sum
 /* Finish the note of a block pair. It stays unchanged until the next but one is written. */
 GG_INLINE void gg_dsmc_sums_next(gg_dsmc_features features, gg_dsmc_sums *sums)
 {
-  if (features.sums != GG_DSMC_NO_SUMS && ++sums->n == GG_DSMC_NOTES) gg_dsmc_sums_collect(features, sums);
+  if (++sums->n == GG_DSMC_NOTES) gg_dsmc_sums_collect(features, sums);
 }
 
 GG_INLINE double gg_dsmc_sum_of_lanes(const double v[GG_DSMC_LANES])
@@ -139,7 +138,6 @@ GG_INLINE double gg_dsmc_sum_of_lanes(const double v[GG_DSMC_LANES])
 
 GG_INLINE void gg_dsmc_sums_finish(gg_dsmc_features features, gg_dsmc_sums *sums, gg_dsmc_pass *pass)
 {
-  if (features.sums == GG_DSMC_NO_SUMS) return;
   gg_dsmc_sums_collect(features, sums);
   /* Impulses of the kernel, and so their sums, are in units of a mass. */
   const double mass = gg_dsmc_impulse_unit(features.same, &pass->contact), stress = pass->sigma * mass;

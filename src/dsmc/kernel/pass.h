@@ -26,7 +26,6 @@ typedef enum gg_dsmc_shear {
 
 /* Sums over collisions. */
 typedef enum gg_dsmc_sums_kept {
-  GG_DSMC_NO_SUMS,
   GG_DSMC_LOSS,  /* Boltzmann: energy loss; the collisional stress is 0 */
   GG_DSMC_STRESS /* Enskog: energy loss and collisional stress */
 } gg_dsmc_sums_kept;
@@ -40,12 +39,10 @@ typedef struct gg_dsmc_features {
   bool own;  /* the contact is made at the collision: coefficients by the speed, but for a callback; or kicks */
 } gg_dsmc_features;
 
-/* Features with a law of restitution or kicks, which have fewer instances: rough grains use the frictional rule, and
- * all sums are computed. */
-GG_INLINE gg_dsmc_features gg_dsmc_features_of_own(gg_dsmc_features features, bool boltzmann)
+/* Features with a law of restitution or kicks, which have fewer instances: rough grains use the frictional rule. */
+GG_INLINE gg_dsmc_features gg_dsmc_features_of_own(gg_dsmc_features features)
 {
   if (features.rule == GG_ROUGH) features.rule = GG_FRICTIONAL;
-  features.sums = boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
   features.own = true;
   return features;
 }

@@ -268,7 +268,7 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state
   gg_dsmc_note *note = &state->sums.note[state->sums.n][part];
   const gg_vd Jn_kicked = kicks ? by.Jn + gg_vd3_normal_kick(&state->contact, candidate.k) : by.Jn;
   gg_dsmc_note_loss(features, note, candidate.g, J, gg_where(candidate.hit, Jn_kicked));
-  if (kicks && features.sums != GG_DSMC_NO_SUMS)
+  if (kicks)
     note->given = gg_where(candidate.hit,
                            gg_vd3_kick_energy(&state->contact, candidate.k, candidate.g, candidate.gn, J, Jn_kicked));
 }

@@ -102,7 +102,6 @@ typedef struct gg_dsmc_channel_state {
   double overfilled;  /* fraction of grains where contact values are limited, averaged over about a crossing of the
                          channel */
   uint64_t steps, collisions, candidates, overflows, forced_rebounds, clamped;
-  uint64_t keeps_sums;
   gg_collision_sums transfer;
   gg_dsmc_advance advance;
 } gg_dsmc_channel_state;

@@ -68,7 +68,7 @@ static bool is_state(const gg_dsmc_channel *d)
          gg_dsmc_is_between(s->pending, 0, 1e5 * crossing) && gg_dsmc_is_between(s->rate, 0, 1e300) &&
          gg_dsmc_is_between(s->all_rate, 0, 1e300) && gg_dsmc_is_between(s->time, -1e300, 1e300) &&
          gg_dsmc_is_between(s->unmeasured, 0, 1e300) && gg_dsmc_is_between(s->overfilled, 0, 1) &&
-         gg_dsmc_is_between(s->advance.gone, 0, 1e300) && s->advance.asked >= 0 && s->keeps_sums <= 1 &&
+         gg_dsmc_is_between(s->advance.gone, 0, 1e300) && s->advance.asked >= 0 &&
          (!d->heated || !gg_common_keeps_energy(&d->model) ||
           (gg_dsmc_is_between(d->kept, 1e-300, 1e300) && gg_dsmc_is_between(d->loss_rate, 0, 1e300)));
 }

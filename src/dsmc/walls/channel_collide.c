@@ -114,7 +114,6 @@ GG_INLINE void collide(gg_dsmc_channel *d, const pass *p, double time, uint32_t 
   gg_collision_sums *t = &p->slab->transfer;
   p->slab->collisions++;
   t->collisions[p->pair]++;
-  if (!d->now.keeps_sums) return;
   if (!d->model.boltzmann) gg_add_stress(t->stress[p->pair], d->model.sigma[p->pair], k, J);
   const gg_kicked_loss energy =
       kicks ? gg_kicked_energy_loss(contact, k, v, J) : (gg_kicked_loss){.loss = gg_energy_loss(contact, k, v, J)};

@@ -103,11 +103,6 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   return create_with(model, seed, stream, NULL, NULL, engine, err);
 }
 
-static void keep_sums(gg_engine *engine, bool keep)
-{
-  channel_of(engine)->now.keeps_sums = keep;
-}
-
 static void take_sums(gg_engine *engine, gg_collision_sums *sums)
 {
   gg_collision_sums *t = &channel_of(engine)->now.transfer;
@@ -243,7 +238,6 @@ const gg_engine_ops gg_dsmc_channel_ops = {
     .create_with = create_with,
     .destroy = gg_dsmc_channel_destroy,
     .advance = advance,
-    .keep_sums = keep_sums,
     .take_sums = take_sums,
     .set_callback = set_callback,
     .threads = threads,

@@ -185,7 +185,6 @@ static void add_contacts(gg_dsmc_channel *d, const gg_dsmc_channel_contacts *all
   for (int w = 0; w < d->model.n_surfaces; w++) {
     gg_surface_sums *t = &d->now.transfer.surface[w];
     t->collisions += all->surface[w].collisions;
-    if (!d->now.keeps_sums) continue;
     t->loss += all->surface[w].loss;
     for (int a = 0; a < 3; a++) t->impulse[a] += all->surface[w].impulse[a];
   }

@@ -12,7 +12,7 @@ struct gg_h5_in;
 
 /* How states are laid out in a checkpoint; to be raised with whatever is stored otherwise, so that a file from before
  * is refused by name. 2: the scene's keys one by one; 3: spins under md's Gaussian thermostat as they are outside. */
-enum { GG_CHECKPOINT_LAYOUT = 7 };
+enum { GG_CHECKPOINT_LAYOUT = 8 };
 
 /* `locked`: the caller holds the lock of this path (io/atomic_file.h). `keep`: the one before is kept. False of the
  * first of a run that does not resume from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was

@@ -62,7 +62,6 @@ static void count(gg_md_counts *k, const gg_md_record *r, const gg_md_addend *a)
   k->clamped += r->clamped;
   k->worst_overlap = fmax(k->worst_overlap, a->overlap);
   k->transfer.collisions[r->pair]++;
-  if (!k->keeps_sums) return;
   double(*stress)[3] = k->transfer.stress[r->pair];
   for (int c = 0; c < 3; c++) stress[c][c] += a->stress[c];
   stress[0][1] += a->stress[3];

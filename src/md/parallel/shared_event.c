@@ -55,7 +55,6 @@ static void clear_counts(gg_md *v, gg_md_record *r)
   v->k.worst_overlap = 0;
   if (r->partner == GG_MD_NONE) return;
   r->pair = (uint16_t)gg_pair(gg_md_species_of(&v->grain[r->grain]), gg_md_species_of(&v->grain[r->partner]));
-  if (!v->k.keeps_sums) return;
   memset(v->k.transfer.stress[r->pair], 0, sizeof v->k.transfer.stress[r->pair]);
   v->k.transfer.loss[r->pair] = v->k.transfer.given[r->pair] = 0;
 }
@@ -67,7 +66,6 @@ static void keep_counts(gg_md_slab *s, gg_md_record *r)
   gg_md_addend *a = gg_md_append(s, &s->log[s->phase - 1].part[GG_MD_LOG_ADDENDS], sizeof *a);
   r->treated = k->treated > 0, r->clamped = k->clamped > 0;
   a->overlap = k->worst_overlap;
-  if (!k->keeps_sums) return;
   const double(*stress)[3] = k->transfer.stress[r->pair];
   *a = (gg_md_addend){{stress[0][0], stress[1][1], stress[2][2], stress[0][1], stress[1][0]},
                       k->transfer.loss[r->pair],
