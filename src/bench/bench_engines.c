@@ -410,8 +410,7 @@ static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind
 
 gg_status gg_bench_overview(gg_bench *b, gg_error *err)
 {
-  static const char caption[] =
-      "Collisions per CPU-second, one core; uniform shear, e = 0.9; median of repeats";
+  static const char caption[] = "Collisions per CPU-second, one core; uniform shear, e = 0.9; median of repeats";
   const int n_sizes = b->options->quick ? 2 : 3, two = b->options->threads > 2 ? 2 : b->options->threads;
   gg_bench_table *t = gg_bench_table_new(b, "throughput", caption, 3, err);
   if (!t) return GG_FAILED;
