@@ -76,16 +76,16 @@ static gg_status check_page_writable(const char *page, const char *picture, cons
   return gg_io_atomic_check_writable(page, GG_PICTURES_ARE, err);
 }
 
-/* Reject a result with the name of a picture: the user wants a picture. */
+/* Reject a result with the name of a picture, table or text: the user wants one, or would lose one. */
 static gg_status check_ending(const char *output, gg_error *err)
 {
-  static const char *const pictures[] = {".svg", ".png", ".pdf", ".gp", ".eps", ".jpg"};
+  static const char *const others[] = {".svg", ".png", ".pdf", ".gp",   ".eps",  ".jpg",
+                                       ".csv", ".txt", ".xyz", ".json", ".yaml", ".yml"};
   const char *ending = output ? strrchr(output, '.') : NULL;
-  for (size_t i = 0; ending && i < sizeof pictures / sizeof *pictures; i++)
-    if (strcasecmp(ending, pictures[i]) == 0)
+  for (size_t i = 0; ending && i < sizeof others / sizeof *others; i++)
+    if (strcasecmp(ending, others[i]) == 0)
       return GG_REFUSE(err,
-                       "%s: has the name of a picture, and results are HDF5: choose FILE.h5 for the output; pictures "
-                       "are drawn by `compare --picture` and `graingas plot`",
+                       "%s: results are HDF5: choose FILE.h5; `graingas plot` draws pictures, `graingas export` tables",
                        output);
   return GG_OK;
 }

@@ -195,7 +195,7 @@ static bool print_checkpoint(const gg_options *o)
   if (gg_checkpoint_about(o->input, &about, &scene, NULL) != GG_OK) return false;
   const char *what = strcmp(about.kind, "simulation") == 0 ? "a saved" : "a checkpoint of a";
   gg_cli_print_name(stdout, "", o->input, about.older ? ".1: " : ": ");
-  printf("%s %s, graingas %s\n\n", what, about.kind, gg_version());
+  printf("%s %s\n\n", what, about.kind);
   for (int k = 0; k < GG_CLI_ENGINES; k++) {
     const gg_checkpoint_part *p = &about.part[k];
     if (!p->engine) continue;

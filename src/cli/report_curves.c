@@ -156,7 +156,7 @@ static void print_numbers(const sources *all, bool with_minor)
   char last[64] = "";
   GG_CLI_FREED gg_table *t = gg_cli_table_new();
   if (!t) return;
-  gg_cli_table_column(t, "read off", false);
+  gg_cli_table_column(t, "derived from", false);
   gg_cli_table_column(t, "", false);
   for (int k = 0; k < all->n; k++) {
     gg_cli_table_column(t, all->of[k].name, true);

@@ -93,14 +93,14 @@ static gg_status reject_syntax(const gg_scene_reader *r, const yaml_parser_t *pa
 {
   if (parser->error == YAML_MEMORY_ERROR || !parser->problem)
     return gg_base_error_prefix(r->err, gg_base_out_of_memory(r->err), "%s", r->name);
-  const char *problem = parser->problem;
+  const char *problem = parser->problem, *context = parser->context;
   size_t line = parser->problem_mark.line + 1;
   if (parser->error == YAML_READER_ERROR)
     return gg_scene_reject_text(r, 0, "is not a scene: no YAML text (%s at byte %zu)", problem, parser->problem_offset);
   if (parser->unread && *parser->buffer.pointer == '\t')
     return gg_scene_reject_text(r, line, "is not YAML: a tab cannot indent; use blanks");
-  return gg_scene_reject_text(r, line, "is not YAML: %s%s%s", problem, parser->context ? " " : "",
-                              parser->context ? parser->context : "");
+  if (parser->error == YAML_SCANNER_ERROR && context) line = parser->context_mark.line + 1; /* an open quote begins */
+  return gg_scene_reject_text(r, line, "is not YAML: %s%s%s", problem, context ? " " : "", context ? context : "");
 }
 
 static gg_status check_end(const gg_scene_reader *r, yaml_parser_t *parser)

@@ -118,6 +118,7 @@ def test_checkpoint_of_another_scene():
     done = run("info", "scene.checkpoint.h5")
     check(done.code == 0 and "a checkpoint of a run" in done.out and "  md: " in done.out, done.out, done.err)
     check("collisions a grain" in done.out and "phi: 0.2" in done.out, done.out)
+    check("graingas" not in done.out, "the program's version, which need not be the checkpoint's", done.out)
     done = run("run", "scene.yaml", "--resume", "scene.checkpoint.h5", "--set", "collision.e=0.8")
     check(done.code == 2 and "collision.e" in done.err, done.code, done.err)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers in print: what is read off curves, with errors in the last digits and z."""
+"""Numbers in print: what is derived from curves, with errors in the last digits and z."""
 import json
 import re
 import sys
@@ -23,12 +23,12 @@ def estimate(text):
 
 
 def rows(text):
-    """(curve, number) -> cells of the table of what is read off, whose columns may go on in further blocks (rows that
-    have nothing there are left out)."""
+    """(curve, number) -> cells of the table of numbers derived from curves, whose columns may go on in further blocks
+    (rows that have nothing there are left out)."""
     table = {}
-    for block in text[text.index("read off"):].split("read off")[1:]:
+    for block in text[text.index("derived from"):].split("derived from")[1:]:
         lines = block.splitlines()
-        head = " " * 8 + lines[0]
+        head = " " * len("derived from") + lines[0]
         edges = [(word.group(), word.end()) for word in re.finditer(r"\S+", head)]
         curve = None
         for line in lines[2:]:
@@ -58,7 +58,7 @@ def test_numbers_off_curves():
         more = ["--all"] if everything else []
         done = run("compare", "scene.yaml", "--quiet", "--picture", "none", *more, columns=100)
         table = rows(done.out)
-        check(everything or done.out.count("read off") == 1, "does not fit on a page")
+        check(everything or done.out.count("derived from") == 1, "does not fit on a page")
         expected = {(c, n) for e in curves.values() for c, curve in e.items() for n in curve["numbers"]
                     if curve["numbers"][n]["mean"] is not None and (everything or not MINOR.search(n))}
         check(set(table) == expected, set(table) ^ expected)

@@ -297,11 +297,13 @@ def test_pictures_beside_a_plot():
     check(done.new == ["r.png", "r_snapshot.png", "r_velocity_distributions.png"], done.new)
 
 
-def test_results_called_like_pictures():
+def test_results_called_like_other_files():
+    """A result with the name of a picture, table or text is rejected: no other scene or notes are overwritten."""
     scenes()
+    shutil.copy("scene.yaml", "other.yaml")
     for command in "run", "compare":
-        for output in "q.pdf", "o.svg", "o.png", "o.PNG":
-            untouched(f"{output}: has the name of a picture, and results are HDF5", 2, command, "long.yaml", "--output",
+        for output in "q.pdf", "o.svg", "o.png", "o.PNG", "o.csv", "notes.txt", "o.json", "other.yaml":
+            untouched(f"{output}: results are HDF5: choose FILE.h5", 2, command, "long.yaml", "--output",
                       output, *(("--picture", "none") if command == "compare" else ()))
 
 

@@ -97,7 +97,8 @@ static void mistakes_are_named_with_line_key_and_allowed_values(void **state)
   assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 9223372036854775808.0}\n", "run.seed");
   assert_refused("flow: usf\nphi: 0.3\nshear_rate: 0\n", "key 'shear_rate': 0 is not allowed here; allowed: above 0");
   assert_refused("flow: usf\nphi: 0.3\nshear_rate: 5e-324\n",
-                 "s.yaml:3: key 'shear_rate': value '5e-324' is not allowed (did you mean 0?); allowed: a number from 1e-30 to 1e+30, such a number below 0, 0, or a formula of t");
+                 "s.yaml:3: key 'shear_rate': value '5e-324' is not allowed (did you mean 0?); allowed: a number from "
+                 "1e-30 to 1e+30, such a number below 0, 0, or a formula of t");
   assert_refused("flow: usf\nphi: 0.3\nspecies: [{mass: 1e-300}]\n", "key 'species.mass': value '1e-300'");
   assert_refused("flow: couette\nphi: 0.3\nwalls: {speed: 1e300}\n", "key 'walls.speed': value '1e300'");
   assert_refused("flow: usf\nphi: 0.3\naspect: [1, 2]\n", "a list of three numbers");
@@ -299,6 +300,9 @@ static void text_that_is_no_scene_is_rejected(void **state)
   assert_refused("\x01\x02\x03", "is not a scene");
   assert_refused("\x80\x81 rubbish", "s.yaml: is not a scene");
   assert_refused("flow: [usf\n", "s.yaml:2: is not YAML");
+  assert_refused("flow: usf\nphi 0.1\nparticles: 100\n", "s.yaml:2: is not YAML: could not find expected ':'");
+  assert_refused("flow: usf\nphi: \"0.1\nparticles: 100\n", "s.yaml:2: is not YAML: found unexpected end");
+  assert_refused("flow: usf\nphi: 0.1\ncollision:\n  e: 0.9\n\tbeta: 0\n", "s.yaml:5: is not YAML: a tab");
   assert_refused("- flow\n- usf\n", "lines of 'key: value'");
   assert_refused("flow: usf\nphi: 0.3\n---\nflow: hcs\n", "more than one document");
   assert_refused("? [a, b]\n: 1\n", "a key must be a word");
