@@ -154,8 +154,8 @@ static double narrowing(double noise, double keep, double u)
   return fmin(0.4, fmax(0, widens * J / (noise * noise)));
 }
 
-/* Set the map of a bath over one interval: its drag and noise since the last slot of the grain. What a slot brings in
- * the steady state would be low by the fraction (drag x interval)^2/3 beside collisions that cool, so the noise is
+/* Set the map of a bath over one interval: its drag and noise since the last slot of the grain. Beside collisions that
+ * cool, a slot would bring too little in the steady state, by the fraction (drag x interval)^2/3, so the noise is
  * larger. A torque may give any estimate of T: the noise changes by 1 % at most. */
 static void make_bath(const gg_md *e, int species, double interval, double u, gg_md_kick_schedule *t)
 {
