@@ -8,29 +8,25 @@
 #include "common/thermostat.h"
 #include "md/epoch.h"
 
-/* White noise adds at most this fraction of T to a grain from slot to slot, but slots of a grain are at least so many
- * mean free times apart, where it is up to 17 % (e = 0). */
-#define FRACTION_OF_T 0.12
+/* Slots bring a grain FRACTION_OF_T if they are then at most WIDEST_INTERVAL mean free times apart. Else they are that
+ * far apart, or bring FRACTION_AT_ANY if they are then farther apart. They are at least LEAST_INTERVAL apart. Under
+ * shear they bring FRACTION_AT_ANY. */
+#define FRACTION_OF_T 0.25
+#define WIDEST_INTERVAL 3.5
+#define FRACTION_AT_ANY 0.12
 #define LEAST_INTERVAL 0.5
 
-/* In a bath slots are at least LEAST_IN_BATH mean free times apart. The temperature is low by drag x cooling rate x
- * interval^2/6, at most by BIAS_OF_BATH. drag x interval is at most MOST_DRAG: its square over 12 is the relative error
- * of the diffusivity, its square over 2 the largest one of a temperature that relaxes. Under shear it is less: stresses
- * are off by a third of the square. Heating at a given rate has no kicks to compensate with (NARROWING), so slots bring
- * it less. */
-#define BIAS_OF_BATH 5e-4
-#define LEAST_IN_BATH 0.5
-#define FRACTION_AT_RATE 0.05
-#define MOST_DRAG 0.12
+/* drag x interval in a bath is at most MOST_DRAG: its square over 12 is the relative error of the diffusivity. It is at
+ * most MOST_DRAG_RELAXING in the first SETTLING intervals, when the temperature may relax: its square over 2 is the
+ * largest error of that, relative to the distance. Under shear it is less: stresses are off by a third of the square.
+ * The temperature of spins that have drag is low by drag x cooling rate x interval^2/6, at most by
+ * BIAS_OF_SPINS. Heating at a given rate has no kicks to compensate with (narrowing), so slots bring it less. */
+#define MOST_DRAG 0.18
+#define MOST_DRAG_RELAXING 0.12
+#define SETTLING 25
 #define MOST_DRAG_SHEARED 0.04
-
-/* The number of slots since a grain's last collision varies by one, which widens the distribution of velocities: a2
- * would be x^2/6 larger, where x is the fraction of T from slot to slot. A kick whose fourth moment is smaller than
- * that of a Gaussian compensates. That lasts for about a mean free time, which has 1/w slots if w is the interval in
- * mean free times: so the fourth moment is smaller by the fraction NARROWING w, of w at most WIDEST_INTERVAL. Kicks of
- * fixed length in each slot have 2/5 less; in 3/5 of the slots they have the moments of a Gaussian. */
-#define NARROWING 0.118
-#define WIDEST_INTERVAL 3
+#define BIAS_OF_SPINS 5e-4
+#define FRACTION_AT_RATE 0.05
 
 enum {
   AHEAD = 4,     /* grains are prefetched so many slots before their kick */
@@ -60,81 +56,144 @@ static double cooling_rate(const gg_model *m, double T)
   return mass * gg_common_thermostat_noise(m) / m->temperature0 * sqrt(T / m->temperature0);
 }
 
-static double interval_in_bath(const gg_model *m, int species, double T)
+/* Longest interval beside collisions, if slots bring a grain this fraction of T per time. */
+static double interval_beside_collisions(const gg_model *m, double T, double fraction)
 {
-  const double drag = fmax(fabs(m->bath.drag[species]), m->bath.spin_drag[species]), cooling = cooling_rate(m, T);
   const double free_time = 1 / gg_common_model_collision_rate(m, T);
-  double most = (m->shear_rate != 0 ? MOST_DRAG_SHEARED : MOST_DRAG) / drag;
-  if (cooling > 0) most = fmin(most, sqrt(6 * BIAS_OF_BATH / (drag * cooling)));
-  if (m->bath.drag[species] < 0) return fmin(fmin(most, free_time), FRACTION_AT_RATE / cooling);
-  return cooling > 0 ? fmin(most, fmax(LEAST_IN_BATH * free_time, FRACTION_OF_T / cooling)) : most;
+  const double least = fmax(LEAST_INTERVAL * free_time, FRACTION_AT_ANY / fraction);
+  return m->shear_rate != 0 ? least : fmax(least, fmin(FRACTION_OF_T / fraction, WIDEST_INTERVAL * free_time));
 }
 
-/* Drag and noise of an interval in which collisions reduce an excess of a grain by e^-u. The slot of a grain finds not
- * the mean temperature, but one that lags behind by the fraction g of what the slot changes: g = 1/2 without
- * collisions, 0 if they have shared the change of the last slot with the other grains. So the map of a grain without
- * collisions, which is an Ornstein-Uhlenbeck process, would relax the mean temperature too little. This one relaxes it
- * equally for any g. */
+/* Number of slots after which intervals may be longer. */
+static uint64_t settled_at(const gg_md_kick_schedule *t)
+{
+  return (uint64_t)SETTLING * t->n / 2;
+}
+
+static double most_drag(const gg_md *e, int species)
+{
+  if (e->model.shear_rate != 0) return MOST_DRAG_SHEARED;
+  return e->k.kick[species].number < settled_at(&e->kicks.schedule[species]) ? MOST_DRAG_RELAXING : MOST_DRAG;
+}
+
+static double interval_in_bath(const gg_md *e, int species, double T)
+{
+  const gg_model *m = &e->model;
+  const double drag = fmax(fabs(m->bath.drag[species]), m->bath.spin_drag[species]), cooling = cooling_rate(m, T);
+  double most = most_drag(e, species) / drag;
+  if (m->bath.drag[species] < 0)
+    return fmin(fmin(most, 1 / gg_common_model_collision_rate(m, T)), FRACTION_AT_RATE / cooling);
+  if (!(cooling > 0)) return most;
+  if (m->bath.spin_drag[species] > 0)
+    most = fmin(most, sqrt(6 * BIAS_OF_SPINS / (m->bath.spin_drag[species] * cooling)));
+  return fmin(most, interval_beside_collisions(m, T, cooling));
+}
+
+/* Fraction g of what a slot changes by which the temperature that the slot finds lags behind the mean temperature.
+ * Collisions reduce an excess of a grain by e^-u in an interval. g is 1/2 without collisions, 0 if collisions have
+ * shared the change of the last slot with the other grains. */
+static double lag(double u)
+{
+  return 1 - gg_common_relaxation(0.5 * u, 1).mean; /* 1/u - 1/(e^u - 1) */
+}
+
+/* Drag and noise of an interval. The map of a grain without collisions, which is an Ornstein-Uhlenbeck process, would
+ * relax the mean temperature too little, because of the lag g. This one relaxes it equally for any g. */
 static gg_relaxation relaxation_beside_collisions(double drag, double interval, double u)
 {
   const gg_relaxation r = gg_common_relaxation(drag, interval);
-  const double g = 1 - gg_common_relaxation(0.5 * u, 1).mean; /* 1/u - 1/(e^u - 1) */
   const double kept = r.decay * r.decay, relaxes = 2 * (1 - kept) / (1 + kept);
-  const double spread = 2 * r.spread / ((1 + kept) * (1 + relaxes * g));
+  const double spread = 2 * r.spread / ((1 + kept) * (1 + relaxes * lag(u)));
   return (gg_relaxation){.decay = sqrt(1 - 2 * drag * spread), .spread = spread};
 }
 
+static double sliding(const gg_model *m, int pair)
+{
+  return m->rule == GG_FRICTIONAL ? fmin(1, m->mu[pair]) : 1;
+}
+
 /* Fraction of an excess in kinetic energy, or in that of spins, that a grain loses in a collision: of three components
- * one is exchanged (elastic), or two spins change by a part. */
+ * elastic smooth grains exchange one; roughness exchanges parts of the others. */
 #define EXCHANGE (2 / 3.)
+
+static double exchange(const gg_model *m, int species)
+{
+  const int q = gg_pair(species, species);
+  const double K = m->inertia[species];
+  const double kept = 1 - (1 + m->beta[q]) * K / (2 * (1 + K)) * sliding(m, q);
+  return EXCHANGE * (2 - kept * kept);
+}
 
 static double exchange_of_spins(const gg_model *m, int species)
 {
   const int q = gg_pair(species, species);
   const double kept = 1 - (1 + m->beta[q]) / (2 * (1 + m->inertia[species]));
-  return EXCHANGE * (1 - kept * kept) * (m->rule == GG_FRICTIONAL ? fmin(1, m->mu[q]) : 1);
+  return EXCHANGE * (1 - kept * kept) * sliding(m, q);
 }
 
-/* Fraction by which the fourth moment of a slot's kick is smaller than that of a Gaussian. In a bath a part of the
- * noise replaces what the drag takes, which does not widen the distribution. */
-static double narrowing(const gg_md *e, int species, double interval)
+/* Temperature of the steady state that is balanced, else the one that the intervals suit. */
+static double steady_temperature(const gg_md *e)
 {
   const gg_model *m = &e->model;
-  const double T = e->k.kick_temperature, w = fmin(WIDEST_INTERVAL, interval * gg_common_model_collision_rate(m, T));
-  const double cooling = cooling_rate(m, T), drag = e->heat == GG_HEAT_BATHES ? fabs(m->bath.drag[species]) : 0;
-  const double widens = cooling > 0 ? cooling / (cooling + 2 * drag) : 0;
-  return NARROWING * w * widens * widens;
+  return m->bath.on && m->shear_rate == 0 ? gg_common_thermostat_balance(m, 0) : e->k.kick_temperature;
 }
 
-/* Set the map of a bath over one interval: its drag and noise since the last slot of the grain. */
-static void make_bath(const gg_md *e, int species, double interval, gg_md_kick_schedule *t)
+#define SHAPE 0.075 /* fitted to the cumulants of baths (docs/explanation/md.md) */
+
+/* Fraction by which the fourth moment of a slot's kick is smaller than that of a Gaussian. From slot to slot the
+ * temperature of a grain falls from (1 - g) J above the mean to g J below it, where J is what the slot brings. With
+ * Gaussian kicks this would widen the distribution of velocities: a2 would be larger by about J^2/6. A slot multiplies
+ * the velocity by `keep` and adds noise of variance T x `noise`. It changes <v^4>/(15 T^2) by
+ * ((1 - g)^2 - keep^4 g^2) J^2 more than drag and noise without intervals do. But collisions give the cooler grains a
+ * larger a2, of which the drag takes (1 - keep^4) SHAPE u g J. */
+static double narrowing(double noise, double keep, double u)
 {
-  const gg_bath *b = &e->model.bath;
-  const double w = interval * gg_common_model_collision_rate(&e->model, e->k.kick_temperature);
-  const gg_relaxation r = relaxation_beside_collisions(b->drag[species], interval, EXCHANGE * w);
+  if (!(noise > 0)) return 0;
+  const double g = lag(u), kept = keep * keep, J = fmax(0, (noise - 1 + kept) / (1 - (1 - kept) * g));
+  const double widens = ((1 - g) * (1 - g) - kept * kept * g * g) * J - (1 - kept * kept) * SHAPE * u * g;
+  return fmin(0.4, fmax(0, widens * J / (noise * noise)));
+}
+
+/* Set the map of a bath over one interval: its drag and noise since the last slot of the grain. Beside collisions that
+ * cool, a slot would bring too little in the steady state, by the fraction (drag x interval)^2/3, so the noise is
+ * larger. A torque may give any estimate of T: the noise changes by 1 % at most. */
+static void make_bath(const gg_md *e, int species, double interval, double u, gg_md_kick_schedule *t)
+{
+  const gg_model *m = &e->model;
+  const gg_bath *b = &m->bath;
+  const double w = interval * gg_common_model_collision_rate(m, e->k.kick_temperature), drag = b->drag[species];
+  const gg_relaxation r = relaxation_beside_collisions(drag, interval, u);
   const gg_relaxation s =
-      relaxation_beside_collisions(b->spin_drag[species], interval, exchange_of_spins(&e->model, species) * w);
-  t->keep = r.decay, t->size = sqrt(b->noise[species] * r.spread);
-  t->chance = narrowing(e, species, interval) / 0.4;
+      relaxation_beside_collisions(b->spin_drag[species], interval, exchange_of_spins(m, species) * w);
+  const double T = steady_temperature(e), kept = gg_common_relaxation(2 * drag, interval).decay;
+  const bool cooled = drag > 0 && b->noise[species] > 0 && m->shear_rate == 0;
+  const double below = cooled ? fmax(-1, 1 - 2 * drag * T / (m->mass[species] * b->noise[species])) : 0;
+  const double more = cooled ? (drag * interval * (1 + kept) / (1 - kept) - 1) * below : 0;
+  const double variance = b->noise[species] * r.spread * (1 + more);
+  t->keep = r.decay, t->size = sqrt(variance);
+  t->chance = narrowing(m->mass[species] * variance / T, t->keep, u) / 0.4;
   t->spin_keep = s.decay, t->spin_size = sqrt(b->spin_noise[species] * s.spread);
 }
 
 static double interval_of(const gg_md *e, int species)
 {
   const gg_model *m = &e->model;
-  if (e->heat == GG_HEAT_BATHES) return interval_in_bath(m, species, e->k.kick_temperature);
-  const double T = e->k.kick_temperature, least = LEAST_INTERVAL / gg_common_model_collision_rate(m, T);
-  return fmax(least, FRACTION_OF_T * T / (m->mass[species] * e->noise));
+  const double T = e->k.kick_temperature;
+  if (e->heat == GG_HEAT_BATHES) return interval_in_bath(e, species, T);
+  return interval_beside_collisions(m, T, m->mass[species] * e->noise / T);
 }
 
 static void choose_interval(gg_md *e, int species)
 {
   gg_md_kick_schedule *t = &e->kicks.schedule[species];
-  const double interval = interval_of(e, species);
+  const gg_model *m = &e->model;
+  const double interval = interval_of(e, species), T = steady_temperature(e);
+  const double rate = exchange(m, species) * gg_common_model_collision_rate(m, T) + 0.25 * cooling_rate(m, T);
+  const double u = rate * interval;
   t->interval = 2 * interval / t->n;
-  t->chance = 0.6 / (1 - narrowing(e, species, interval));
+  t->chance = 0.6 / (1 - narrowing(m->mass[species] * e->noise * interval / T, 1, u));
   t->size = e->noise > 0 ? sqrt(3 * e->noise * interval / t->chance) : 0;
-  if (e->heat == GG_HEAT_BATHES) make_bath(e, species, interval, t);
+  if (e->heat == GG_HEAT_BATHES) make_bath(e, species, interval, u, t);
 }
 
 /* Choose the temperature for which intervals are short enough. A gas in a bath, or with noise of a given strength, may
@@ -194,8 +253,11 @@ void gg_md_kicks_begin(gg_md *e)
 {
   e->k.next_kick = gg_md_compensates(e) ? gg_md_compensation_interval(e) : INFINITY;
   if (!gg_md_has_kicks(e)) return;
-  for (int s = 0; s < e->model.n_species; s++)
-    e->k.kick[s] = (gg_md_kick_progress){.at = 0.5 * e->kicks.schedule[s].interval};
+  for (int s = 0; s < e->model.n_species; s++) {
+    e->k.kick[s].number = 0;
+    choose_interval(e, s);
+    e->k.kick[s].at = 0.5 * e->kicks.schedule[s].interval;
+  }
   e->k.next_kick = e->k.kick[due(e)].at;
 }
 
@@ -298,6 +360,7 @@ void gg_md_kick(gg_md *e)
   }
   next->at += t->interval * (0.5 + gg_rng_uniform(&e->k.rng));
   next->number++;
+  if (next->number == settled_at(t) && e->model.bath.on && e->model.shear_rate == 0) choose_interval(e, s);
   if (e->n > CACHED) prefetch(e, t, next->number + AHEAD);
   e->k.next_kick = e->k.kick[due(e)].at;
 }

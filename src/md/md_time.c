@@ -14,15 +14,17 @@ static double crowding(const gg_model *m)
 }
 
 /* Time of a collision with the kicks between collisions, over that of a collision alone. A kick takes nearly as long as
- * a collision, in a dilute gas less. The more energy collisions lose, the more kicks there are (md/kicks.h). */
+ * a collision, in a dilute gas less. The more energy collisions lose, the more kicks there are (md/kicks.c). */
 static double cost_of_kicks(const gg_model *m)
 {
-  const double slots = m->shear_rate != 0 ? 25 : 5, rate = gg_common_model_collision_rate(m, m->temperature0);
+  const bool sheared = m->shear_rate != 0;
+  const double rate = gg_common_model_collision_rate(m, m->temperature0);
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
   const double loss = mass * gg_common_thermostat_noise(m) / m->temperature0 / rate;
-  if (m->bath.drag[0] != 0) return 1 + fmax(fmin(8 * loss, 1), 0.4 * slots * fabs(m->bath.drag[0]) / rate);
-  return gg_common_is_kicked(m) ? 1 + fmin(7 * loss, 1.1) : 1;
+  const double kicks = fmin(2, sheared ? 8 * loss : fmin(8 * loss, fmax(4 * loss, 0.28)));
+  if (m->bath.drag[0] != 0) return 1 + fmax(kicks, 0.4 * (sheared ? 25 : 5.5) * fabs(m->bath.drag[0]) / rate);
+  return gg_common_is_kicked(m) ? 1 + kicks : 1;
 }
 
 /* A grain crosses the more cells between two collisions the more dilute the gas is. Beyond 2000 grains the data leave

@@ -149,9 +149,12 @@ static void from_cold(gg_model steady)
   assert_true(fabs(interval_of(b) / interval_of(a) - 1) < 1e-9);
   advance(b, 150);
   lab_mean T = {0};
-  for (int i = 0; i < 40; i++) {
-    advance(b, 10);
-    lab_view v = view_of(b);
+  for (int i = 0; i < 24; i++) {
+    lab_view v = {0};
+    for (int s = 0; s < 4; s++) {
+      advance(b, 10);
+      gg_md_ops.snapshot(b, false, lab_add_chunk, &v);
+    }
     lab_add(&T, lab_temperature(&v));
   }
   gg_theory_answer answer;
@@ -176,7 +179,7 @@ static void cold_starts_become_steady(void **state)
   lab_view v = view_of(c);
   const double free_time = 1 / gg_common_model_collision_rate(&sheared, lab_temperature(&v));
   print_message("# interval %.3g, then %.3g; mean free time %.3g\n", before, interval_of(c), free_time);
-  assert_true(interval_of(c) < 2.5 * free_time && before > 5 * free_time);
+  assert_true(interval_of(c) < 2.9 * free_time && before > 5 * free_time); /* T is followed by factors of two */
   gg_md_ops.destroy(c);
 }
 
@@ -215,10 +218,69 @@ static void dilute_gases_follow_enskogs_equation(void **state)
   against_theory(bath(GG_USF, 0.01, 0.9, -1, 0.1, 40, 0, 2000));
 }
 
+/* In the steady temperature T a slot brings 2 gamma t (T_bath - T), as bath and losses do in an interval t, whatever
+ * collisions do to a grain in between (kicks.c); the noise is no more than 1 % above that of the bath. The interval is
+ * longer once a gas had time to relax. */
+static void slots_bring_what_a_bath_does(void **state)
+{
+  (void)state;
+  static const double phi[] = {0.01, 0.3}, beta[] = {-1, 0.5};
+  for (int k = 0; k < 4; k++) {
+    gg_model m = bath(GG_HSS, phi[k % 2], 0.9, beta[k / 2], 0.1, 1, 0, 400);
+    gg_engine *g = engine_of(&m, 1);
+    gg_md *e = (gg_md *)g;
+    const double T = gg_common_thermostat_balance(&m, 0), early = interval_of(g), K = m.inertia[0];
+    e->k.next_kick = e->k.now;
+    while (e->k.kick[0].number < 25 * 200) {
+      e->k.now = e->k.next_kick;
+      gg_md_kick(e);
+    }
+    const gg_md_kick_schedule *t = &e->kicks.schedule[0];
+    const double interval = interval_of(g), most = phi[k % 2] < 0.1 ? 0.18 : 0.1;
+    const double kept = 1 - (1 + m.beta[0]) * K / (2 * (1 + K)), cooling = 0.2 * (1 / T - 1);
+    const double u = ((2 - kept * kept) * 2 / 3 * gg_common_model_collision_rate(&m, T) + 0.25 * cooling) * interval;
+    const double lags = 1 / u - 1 / expm1(u), takes = 1 - t->keep * t->keep, noise = t->size * t->size / T;
+    print_message("# interval %.3g/gamma, early %.3g/gamma, fixed kicks %.3g\n", 0.1 * interval, 0.1 * early,
+                  t->chance);
+    assert_true(0.1 * interval < most * (1 + 1e-12) && early <= interval * (1 + 1e-12) && 0.1 * early < 0.12000001);
+    assert_true(phi[k % 2] > 0.1 || (fabs(0.1 * interval - most) < 1e-12 && fabs(0.1 * early - 0.12) < 1e-12));
+    assert_true(fabs((noise - takes) / (1 - takes * lags) / (cooling * interval) - 1) < 1e-6);
+    assert_in_range((int)(1e6 * noise * T / takes), 1000000, 1010000);
+    gg_md_ops.destroy(g);
+  }
+}
+
+/* At e = 0.9 and beta = 0.5 a slot brings a quarter of T. With Gaussian kicks alone a2 would be 0.011 larger. */
+static void cumulant_is_that_of_enskogs_equation(void **state)
+{
+  (void)state;
+  gg_model m = bath(GG_HSS, 0.01, 0.9, 0.5, 0.0015, 1, 0, 2000);
+  gg_theory_answer a;
+  gg_error err;
+  if (gg_theory_evaluate(gg_theory_find("enskog_hermite"), &m, &a, &err) != GG_OK) fail_msg("%s", err.message);
+  gg_engine *g = engine_of(&m, 7);
+  const double free_time = 1 / gg_common_model_collision_rate(&m, m.temperature0);
+  const int samples = 700;
+  double c2 = 0, c4 = 0;
+  advance(g, 30 * free_time);
+  for (int i = 0; i < samples; i++) {
+    advance(g, 1.3 * free_time);
+    lab_view v = view_of(g);
+    c2 += lab_temperature(&v) / samples, c4 += v.c4 / v.n / samples;
+  }
+  print_message("# a2 %.5f, expected %.5f; interval %.3g mean free times\n", c4 / (15 * c2 * c2) - 1, a.value[GG_Q_A2],
+                interval_of(g) / free_time);
+  assert_true(fabs(c4 / (15 * c2 * c2) - 1 - a.value[GG_Q_A2]) < 0.004);
+  gg_md_ops.destroy(g);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(elastic_grains_relax_as_drag_and_noise_do), cmocka_unit_test(sheared_moments_are_known),
-      cmocka_unit_test(cold_starts_become_steady), cmocka_unit_test(dilute_gases_follow_enskogs_equation)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_grains_relax_as_drag_and_noise_do),
+                                     cmocka_unit_test(sheared_moments_are_known),
+                                     cmocka_unit_test(cold_starts_become_steady),
+                                     cmocka_unit_test(dilute_gases_follow_enskogs_equation),
+                                     cmocka_unit_test(slots_bring_what_a_bath_does),
+                                     cmocka_unit_test(cumulant_is_that_of_enskogs_equation)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
