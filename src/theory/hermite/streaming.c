@@ -57,14 +57,28 @@ static void add(const gg_hermite_operator *op, const gg_tests *t, double factor,
                 double *row)
 {
   const gg_hermite_basis *b = &op->basis;
-  for (int k = 0; k < t->n && factor != 0; k++)
-    for (int s = 0; s < b->n; s++) {
-      double value = overlap(op, t->decay, t->term[k].m, b->function[s].r);
-      if (value == 0) continue;
-      value *= factor * t->term[k].amount;
-      *R += value * a[s];
-      if (row) row[s] += value;
+  for (int k = 0; k < t->n && factor != 0; k++) {
+    const int *m = t->term[k].m;
+    const double amount = factor * t->term[k].amount;
+    if (m[2] % 2) continue; /* functions are even in z */
+    if (!(t->decay > 0)) {  /* orthonormal: one function alone */
+      const int s = gg_hermite_place(b, m[0], m[1], m[2]);
+      if (s < 0) continue;
+      *R += amount * a[s];
+      if (row) row[s] += amount;
+      continue;
     }
+    const double *x = op->overlap + m[0] * (b->degree + 1), *y = op->overlap + m[1] * (b->degree + 1),
+                 *z = op->overlap + m[2] * (b->degree + 1);
+    for (int s = 0; s < b->n; s++) {
+      const int *r = b->function[s].r;
+      if ((m[0] ^ r[0]) & 1) continue; /* degrees are even: y has the parity of x */
+      const double value = x[r[0]] * y[r[1]] * z[r[2]];
+      if (value == 0) continue;
+      *R += value * amount * a[s];
+      if (row) row[s] += value * amount;
+    }
+  }
 }
 
 /* B = L^-1 A L, in which drag stays drag, and G = L^-T L^-1 */
