@@ -70,14 +70,16 @@ static void add(const gg_hermite_operator *op, const gg_tests *t, double factor,
     }
     const double *x = op->overlap + m[0] * (b->degree + 1), *y = op->overlap + m[1] * (b->degree + 1),
                  *z = op->overlap + m[2] * (b->degree + 1);
-    for (int s = 0; s < b->n; s++) {
-      const int *r = b->function[s].r;
-      if ((m[0] ^ r[0]) & 1) continue; /* degrees are even: y has the parity of x */
-      const double value = x[r[0]] * y[r[1]] * z[r[2]];
-      if (value == 0) continue;
-      *R += value * amount * a[s];
-      if (row) row[s] += value * amount;
-    }
+    double sum = *R;
+    int s = 0; /* functions as the basis numbers them: by degree, z, y; x and y have one parity, that of the term */
+    for (int degree = 0; degree <= b->degree; degree += 2)
+      for (int k_z = 0; k_z <= degree; s += degree - k_z + 1, k_z += 2)
+        for (int k_y = m[0] & 1; k_y <= degree - k_z; k_y += 2) {
+          const double value = x[degree - k_z - k_y] * y[k_y] * z[k_z] * amount;
+          sum += value * a[s + k_y];
+          if (row) row[s + k_y] += value;
+        }
+    *R = sum;
   }
 }
 
