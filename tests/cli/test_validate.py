@@ -12,7 +12,7 @@ from tap import check, main, run
 
 GRID = """flow: usf
 phi: 0.1
-particles: 500
+particles: 250
 run: {relative_error: 0.05}
 vary:
   - {collision.beta: [-1, 0.3], collision.mu: [.inf, 0.1]}

@@ -174,7 +174,7 @@ static void against_theory(const gg_model *model, double sight)
   m.temperature0 = a.value[GG_Q_TEMPERATURE];
   gg_engine *g = lab_engine(&m, 5);
   lab_flow f = {0};
-  lab_average(g, &m, 20, 40, 20, &f);
+  lab_average(g, &m, 20, 20, 16, &f);
   const gg_quantity q[] = {GG_Q_TEMPERATURE, GG_Q_ROTATIONAL_TEMPERATURE};
   const lab_mean *mean[] = {&f.T, &f.theta};
   for (int k = 0; k < (m.rule == GG_ROUGH ? 2 : 1); k++) {

@@ -14,7 +14,7 @@ typedef struct tally {
   double sum, sum2;
 } tally;
 
-static void add(tally *t, double x)
+static inline void add(tally *t, double x)
 {
   t->sum += x, t->sum2 += x * x;
 }
@@ -32,11 +32,6 @@ static gg_vec draw(gg_rng *r, gg_tensor M)
   gg_vec n = gg_common_rng_normal_vec(r);
   double lx = sqrt(M.at[0][0]), off = M.at[0][1] / lx, ly = sqrt(M.at[1][1] - off * off);
   return (gg_vec){lx * n.x, off * n.x + ly * n.y, sqrt(M.at[2][2]) * n.z};
-}
-
-static double component(gg_vec a, int i)
-{
-  return i == 0 ? a.x : i == 1 ? a.y : a.z;
 }
 
 /* Sheared, anisotropic, spinning: every moment of one species that collides with one other. */
@@ -59,20 +54,24 @@ static void check_pair(const gg_model *m, const gg_gaussian state[], int i, int 
     gg_kick(m->rule, &m->contact[i][j], k, J, &C, &s, &c2, &s2);
     add(&flux, u);
     add(&spin, u * (s.z - s1.z));
-    for (int a = 0; a < 9; a++) {
-      int x = a / 3, y = a % 3;
-      double mean[3] = {0, 0, state[i].spin};
-      add(&M[a], u * (component(C, x) * component(C, y) - component(c1, x) * component(c1, y)));
-      add(&Theta[a], u * ((component(s, x) - mean[x]) * (component(s, y) - mean[y]) -
-                          (component(s1, x) - mean[x]) * (component(s1, y) - mean[y])));
-      add(&P[a], u * component(k, x) * component(J, y));
-    }
+    const double after[2][3] = {{C.x, C.y, C.z}, {s.x, s.y, s.z - state[i].spin}},
+                 before[2][3] = {{c1.x, c1.y, c1.z}, {s1.x, s1.y, s1.z - state[i].spin}}, along[3] = {k.x, k.y, k.z},
+                 push[3] = {J.x, J.y, J.z};
+    for (int x = 0; x < 3; x++)
+      for (int y = 0; y < 3; y++) {
+        if (y <= x) { /* symmetric */
+          add(&M[3 * x + y], u * (after[0][x] * after[0][y] - before[0][x] * before[0][y]));
+          add(&Theta[3 * x + y], u * (after[1][x] * after[1][y] - before[1][x] * before[1][y]));
+        }
+        add(&P[3 * x + y], u * along[x] * push[y]);
+      }
   }
   check_as("frequency", &flux, weight, expected->frequency[i]);
   check_as("spin", &spin, weight, expected->change[i].spin);
   for (int a = 0; a < 9; a++) {
-    check_as("M", &M[a], weight, expected->change[i].M.at[a / 3][a % 3]);
-    check_as("Theta", &Theta[a], weight, expected->change[i].Theta.at[a / 3][a % 3]);
+    const int low = 3 * (a / 3 > a % 3 ? a / 3 : a % 3) + (a / 3 > a % 3 ? a % 3 : a / 3);
+    check_as("M", &M[low], weight, expected->change[i].M.at[a / 3][a % 3]);
+    check_as("Theta", &Theta[low], weight, expected->change[i].Theta.at[a / 3][a % 3]);
     check_as("Pc", &P[a], (i == j ? 0.5 : 1) * weight * sigma * m->density * gg_theory_fraction(m, i),
              expected->Pc.at[a / 3][a % 3]);
   }

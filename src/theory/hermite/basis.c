@@ -135,27 +135,33 @@ void gg_hermite_values(int degree, double x, double *value)
   for (int n = 1; n < degree; n++) value[n + 1] = (x * value[n] - root[n] * value[n - 1]) * inverse_root[n + 1];
 }
 
-/* Eight points at once: one at a time, each product would depend on the one before. */
-enum { LANES = 8 };
+/* Eight points at once: one at a time, each product would depend on the one before. Vectors are of 256 bits, since gcc
+ * 12 keeps wider ones in memory where registers are narrower. */
+enum { LANES = 4, VECTORS = 2 };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
-GG_CLONES static void values_of_eight(int degree, const double at[LANES], int n, double *value, int stride)
+GG_CLONES static void values_of_eight(int degree, const double at[VECTORS * LANES], int n, double *value, int stride)
 {
-  lanes before = {0}, now = before + 1, x;
-  memcpy(&x, at, sizeof x);
+  lanes before[VECTORS] = {{0}}, now[VECTORS], x[VECTORS];
+  memcpy(x, at, sizeof x);
+  for (int i = 0; i < VECTORS; i++) now[i] = before[i] + 1;
   for (int m = 0; m <= degree; m++) {
-    for (int k = 0; k < n; k++) value[k * stride + m] = now[k];
-    lanes next = (x * now - root[m] * before) * inverse_root[m + 1];
-    before = now, now = next;
+    double some[VECTORS * LANES];
+    memcpy(some, now, sizeof some);
+    for (int k = 0; k < n; k++) value[k * stride + m] = some[k];
+    for (int i = 0; i < VECTORS; i++) {
+      lanes next = (x[i] * now[i] - root[m] * before[i]) * inverse_root[m + 1];
+      before[i] = now[i], now[i] = next;
+    }
   }
 }
 
 void gg_hermite_values_of(int degree, int n, const double *x, double *value, int stride)
 {
-  memset(value, 0, (size_t)(n * stride) * sizeof *value);
-  for (int from = 0; from < n; from += LANES) {
-    int many = n - from < LANES ? n - from : LANES;
-    double some[LANES] = {0};
+  enum { ALL = VECTORS * LANES };
+  for (int from = 0; from < n; from += ALL) {
+    int many = n - from < ALL ? n - from : ALL;
+    double some[ALL] = {0};
     for (int k = 0; k < many; k++) some[k] = x[from + k];
     values_of_eight(degree, some, many, value + from * stride, stride);
   }
@@ -179,9 +185,9 @@ static void raise(int n, double axis[3][3], int i, double scale, const double *f
   for (int P = 0; P <= n; P++)
     for (int Q = 0; Q <= n - P; Q++) {
       double value = scale * from[tangential(n, P, Q)];
-      to[tangential(n + 1, P, Q)] += axis[0][i] * sqrt(n - P - Q + 1) * value;
-      to[tangential(n + 1, P + 1, Q)] += axis[1][i] * sqrt(P + 1) * value;
-      to[tangential(n + 1, P, Q + 1)] += axis[2][i] * sqrt(Q + 1) * value;
+      to[tangential(n + 1, P, Q)] += axis[0][i] * root[n - P - Q + 1] * value;
+      to[tangential(n + 1, P + 1, Q)] += axis[1][i] * root[P + 1] * value;
+      to[tangential(n + 1, P, Q + 1)] += axis[2][i] * root[Q + 1] * value;
     }
 }
 

@@ -47,7 +47,7 @@ int gg_hermite_rotated_place(const gg_hermite_basis *basis, int J, int P, int Q)
 /* He_0 .. He_N at x, normalised. */
 void gg_hermite_values(int degree, double x, double *value);
 
-/* The same at n points, by rows of `stride`, 0 beyond He_N. */
+/* The same at n points, by rows of `stride`; beyond He_N rows are not changed. */
 void gg_hermite_values_of(int degree, int n, const double *x, double *value, int stride);
 
 /* D, n_rotated rows of `wide` >= n: Ho_s(c) = sum_q D_qs Ho_q(c'), where c'_i = axis_i . c; orthogonal, degree by

@@ -12,7 +12,7 @@
 /* Limit of integration: beyond it the weight is below 1e-31. */
 static const double farthest = 12;
 
-/* Rows of the polynomials of a point, zero beyond the last; points over v. */
+/* Rows of the polynomials of a point; points over v. The workspace is 0 beyond the last polynomial from the start. */
 enum { N1 = GG_HERMITE_MOST_DEGREE + 1, STRIDE = 32, POINTS = (3 * GG_HERMITE_MOST_DEGREE + 4) / 2 };
 
 /* All points of the rule over v at one u: weights, and polynomials of both grains and of the test by rows of STRIDE. */
@@ -118,7 +118,6 @@ static void add_normal(const gg_hermite_flux *f, const gg_hermite_contact *c, do
   see(f, c, u, shift, amount, p);
   for (int k = 0; k < f->n_v; k++) {
     double *row = column + k * f->width_X;
-    memset(row, 0, (size_t)f->width_X * sizeof *row);
     for (int J = 0; J < f->tests; J++) {
       double factor = p->w[k] * p->test[k * STRIDE + J], *at = row + gg_hermite_X_column(f, J);
       for (int l = 0; l < f->halves; l++) at[l] = factor * p->x2[k * STRIDE + 2 * l];
@@ -133,15 +132,17 @@ static void add_contracted(const gg_hermite_flux *f, const gg_hermite_contact *c
                            const double *marginal, double *to)
 {
   gg_points *p = (gg_points *)(void *)f->points;
-  double sum[STRIDE * STRIDE] = {0};
+  double sum[STRIDE * STRIDE];
+  const int rows = gg_padded(f->tests, GG_PRODUCT_ROWS);
+  memset(sum, 0, (size_t)(rows * STRIDE) * sizeof *sum);
   see(f, c, u, shift, amount, p);
   for (int k = 0; k < f->n_v; k++) {
     double density = 0;
     for (int l = 0; l < f->halves; l++) density += marginal[l] * p->x2[k * STRIDE + 2 * l];
     for (int J = 0; J < f->tests; J++) p->test[k * STRIDE + J] *= p->w[k] * density;
   }
-  gg_hermite_product_add(gg_padded(f->tests, GG_PRODUCT_ROWS), gg_padded(f->trials, GG_PRODUCT_COLUMNS), f->n_v,
-                         p->test, STRIDE, p->x1, STRIDE, sum, STRIDE);
+  gg_hermite_product_add(rows, gg_padded(f->trials, GG_PRODUCT_COLUMNS), f->n_v, p->test, STRIDE, p->x1, STRIDE, sum,
+                         STRIDE);
   for (int J = 0; J < f->tests; J++)
     for (int j = 0; j < f->trials; j++) to[J * f->trials + j] += sum[J * STRIDE + j];
 }

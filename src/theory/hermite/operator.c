@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "simd/clones.h"
 #include "theory/hermite/direction_workspace.h"
 
 /* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi): by symmetry a quarter of the sphere is enough. */
@@ -172,6 +173,11 @@ static double apply(const gg_hermite_operator *op, const gg_hermite_view *v, con
   return sum;
 }
 
+GG_CLONES static void add_scaled(int n, double factor, const double *restrict from, double *restrict to)
+{
+  for (int s = 0; s < n; s++) to[s] += factor * from[s];
+}
+
 /* Back from the rotated frame: R_r = sum_q D_qr q_q, and the same of the derivatives. */
 static void rotate_back(const gg_hermite_operator *op, const gg_hermite_view *v, double w, double *R, double *jacobian,
                         size_t stride)
@@ -183,9 +189,7 @@ static void rotate_back(const gg_hermite_operator *op, const gg_hermite_view *v,
     int degree = gg_hermite_degree(b->rotated[q]);
     for (int i = b->from[degree]; i < b->from[degree + 1]; i++) {
       R[i] += w * D[i] * r->q[q];
-      if (!jacobian) continue;
-      double d = w * D[i], *restrict row = jacobian + (size_t)i * stride;
-      for (int s = 0; s < b->n; s++) row[s] += d * X[s];
+      if (jacobian) add_scaled(b->n, w * D[i], X, jacobian + (size_t)i * stride);
     }
   }
 }

@@ -57,14 +57,30 @@ static void add(const gg_hermite_operator *op, const gg_tests *t, double factor,
                 double *row)
 {
   const gg_hermite_basis *b = &op->basis;
-  for (int k = 0; k < t->n && factor != 0; k++)
-    for (int s = 0; s < b->n; s++) {
-      double value = overlap(op, t->decay, t->term[k].m, b->function[s].r);
-      if (value == 0) continue;
-      value *= factor * t->term[k].amount;
-      *R += value * a[s];
-      if (row) row[s] += value;
+  for (int k = 0; k < t->n && factor != 0; k++) {
+    const int *m = t->term[k].m;
+    const double amount = factor * t->term[k].amount;
+    if (m[2] % 2) continue; /* functions are even in z */
+    if (!(t->decay > 0)) {  /* orthonormal: one function alone */
+      const int s = gg_hermite_place(b, m[0], m[1], m[2]);
+      if (s < 0) continue;
+      *R += amount * a[s];
+      if (row) row[s] += amount;
+      continue;
     }
+    const double *x = op->overlap + m[0] * (b->degree + 1), *y = op->overlap + m[1] * (b->degree + 1),
+                 *z = op->overlap + m[2] * (b->degree + 1);
+    double sum = *R;
+    int s = 0; /* functions as the basis numbers them: by degree, z, y; x and y have one parity, that of the term */
+    for (int degree = 0; degree <= b->degree; degree += 2)
+      for (int k_z = 0; k_z <= degree; s += degree - k_z + 1, k_z += 2)
+        for (int k_y = m[0] & 1; k_y <= degree - k_z; k_y += 2) {
+          const double value = x[degree - k_z - k_y] * y[k_y] * z[k_z] * amount;
+          sum += value * a[s + k_y];
+          if (row) row[s + k_y] += value;
+        }
+    *R = sum;
+  }
 }
 
 /* B = L^-1 A L, in which drag stays drag, and G = L^-T L^-1 */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "common/vec.h"
 #include "theory/hermite/overlap.h"
 
 enum { SIDE = GG_ROUGH_MOST_DEGREE + 1, MOST = 2 * SIDE, APPROACH = 48, CENTRE = 32 };
@@ -235,21 +236,30 @@ static bool at_rest(const int *r)
   return r[0] + r[1] + r[3] + r[4] == 0;
 }
 
-double gg_rough_direction_sum(const gg_rough_direction *d, const int *test, const int *fixed, bool swapped,
-                              const gg_rough_term *terms, int n)
+/* `swapped` is constant: what depends on the fixed grain alone is computed once. */
+GG_INLINE double sum_over(const gg_rough_direction *d, const int *test, const int *fixed, const bool swapped,
+                          const gg_rough_term *terms, int n)
 {
+  static const double sign[2] = {1, -1}; /* as for the other pair, but for the sign of the spin */
+  if (swapped ? fixed[5] != 0 : (test[5] + fixed[5]) % 2 != 0) return 0;
   const row at = row_of(d, test, fixed, swapped);
+  const double *spin = d->kept[1] + test[5] * (d->trials + 1);
+  const bool rest = at_rest(fixed);
   double sum = 0;
   for (int k = 0; k < n; k++) {
     const gg_rough_term *t = &terms[k];
-    const int *one = swapped ? t->r : fixed, *two = swapped ? fixed : t->r;
-    if (two[5] || (test[5] + one[5]) % 2) continue;
-    double value = at.x[t->x] * at.y[t->y] * at.z[t->r[2] * at.stride];
-    if ((test[3] + one[3] + two[3]) % 2) value = -value; /* as for the other pair, but for the sign of the spin */
-    if (at_rest(two)) value -= before(d, test, one, two);
-    sum += t->value * kept(d, 5, test, one) * value;
+    if (swapped ? (test[5] ^ t->r[5]) & 1 : t->r[5]) continue;
+    double value = at.x[t->x] * at.y[t->y] * at.z[t->r[2] * at.stride] * sign[(test[3] ^ fixed[3] ^ t->r[3]) & 1];
+    if (swapped ? rest : at_rest(t->r)) value -= before(d, test, swapped ? t->r : fixed, swapped ? fixed : t->r);
+    sum += t->value * spin[swapped ? t->r[5] : fixed[5]] * value;
   }
   return sum;
+}
+
+double gg_rough_direction_sum(const gg_rough_direction *d, const int *test, const int *fixed, bool swapped,
+                              const gg_rough_term *terms, int n)
+{
+  return swapped ? sum_over(d, test, fixed, true, terms, n) : sum_over(d, test, fixed, false, terms, n);
 }
 
 double gg_rough_direction_kept(const gg_rough_direction *d, const int *test, const int *one)

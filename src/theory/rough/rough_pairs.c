@@ -236,8 +236,11 @@ static gg_status make_tests(gg_rough_form *form, const gg_rough_functions *f, co
 
 void gg_rough_test(const gg_rough_form *form, const double *all, double *tested)
 {
-  for (int r = 0; r < form->n; r++)
-    for (int p = form->from[r]; p < form->from[r + 1]; p++) tested[r] += form->part[p].amount * all[form->part[p].test];
+  for (int r = 0; r < form->n; r++) {
+    double sum = tested[r];
+    for (int p = form->from[r]; p < form->from[r + 1]; p++) sum += form->part[p].amount * all[form->part[p].test];
+    tested[r] = sum;
+  }
 }
 
 static gg_status make_form(gg_rough_form *form, const gg_rough_relative *relative, gg_error *err)
