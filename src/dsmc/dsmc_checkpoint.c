@@ -2,7 +2,6 @@
 /* Checkpoint of the engine: everything that a run needs to continue bit for bit. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "dsmc/dsmc.h"
 

@@ -8,19 +8,20 @@
 #include "common/thermostat.h"
 #include "md/epoch.h"
 
-/* Slots bring a grain FRACTION_OF_T if they are then at most WIDEST_INTERVAL mean free times apart. Else they are that
- * far apart, or bring FRACTION_AT_ANY if they are then farther apart. They are at least LEAST_INTERVAL apart. Under
- * shear they bring FRACTION_AT_ANY. */
+/* A slot brings a grain FRACTION_OF_T, but is at most WIDEST_INTERVAL mean free times after the last one, unless it
+ * then brings less than FRACTION_AT_ANY. Under shear it brings FRACTION_AT_ANY. Slots are at least LEAST_INTERVAL mean
+ * free times apart. */
 #define FRACTION_OF_T 0.25
 #define WIDEST_INTERVAL 3.5
 #define FRACTION_AT_ANY 0.12
 #define LEAST_INTERVAL 0.5
 
 /* drag x interval in a bath is at most MOST_DRAG: its square over 12 is the relative error of the diffusivity. It is at
- * most MOST_DRAG_RELAXING in the first SETTLING intervals, when the temperature may relax: its square over 2 is the
- * largest error of that, relative to the distance. Under shear it is less: stresses are off by a third of the square.
- * The temperature of spins that have drag is low by drag x cooling rate x interval^2/6, at most by
- * BIAS_OF_SPINS. Heating at a given rate has no kicks to compensate with (narrowing), so slots bring it less. */
+ * most MOST_DRAG_RELAXING in the first SETTLING intervals, when the temperature may relax: from up to four times the
+ * bath's its square over 2 is the largest error of that, relative to the distance. Under shear it is less: stresses are
+ * off by a third of the square. The temperature of spins that have drag is low by drag x cooling rate x interval^2/6,
+ * at most by BIAS_OF_SPINS. Heating at a given rate has no kicks to compensate with (narrowing), so slots bring it
+ * less. */
 #define MOST_DRAG 0.18
 #define MOST_DRAG_RELAXING 0.12
 #define SETTLING 25
@@ -61,7 +62,7 @@ static double interval_beside_collisions(const gg_model *m, double T, double fra
 {
   const double free_time = 1 / gg_common_model_collision_rate(m, T);
   const double least = fmax(LEAST_INTERVAL * free_time, FRACTION_AT_ANY / fraction);
-  return m->shear_rate != 0 ? least : fmax(least, fmin(FRACTION_OF_T / fraction, WIDEST_INTERVAL * free_time));
+  return gg_model_is_sheared(m) ? least : fmax(least, fmin(FRACTION_OF_T / fraction, WIDEST_INTERVAL * free_time));
 }
 
 /* Number of slots after which intervals may be longer. */
@@ -72,7 +73,7 @@ static uint64_t settled_at(const gg_md_kick_schedule *t)
 
 static double most_drag(const gg_md *e, int species)
 {
-  if (e->model.shear_rate != 0) return MOST_DRAG_SHEARED;
+  if (gg_model_is_sheared(&e->model)) return MOST_DRAG_SHEARED;
   return e->k.kick[species].number < settled_at(&e->kicks.schedule[species]) ? MOST_DRAG_RELAXING : MOST_DRAG;
 }
 
@@ -135,10 +136,10 @@ static double exchange_of_spins(const gg_model *m, int species)
 static double steady_temperature(const gg_md *e)
 {
   const gg_model *m = &e->model;
-  return m->bath.on && m->shear_rate == 0 ? gg_common_thermostat_balance(m, 0) : e->k.kick_temperature;
+  return m->bath.on && !gg_model_is_sheared(m) ? gg_common_thermostat_balance(m, 0) : e->k.kick_temperature;
 }
 
-#define SHAPE 0.075 /* fitted to the cumulants of baths (docs/explanation/md.md) */
+#define SHAPE 0.075 /* fitted to a2 in baths (docs/explanation/md.md) */
 
 /* Fraction by which the fourth moment of a slot's kick is smaller than that of a Gaussian. From slot to slot the
  * temperature of a grain falls from (1 - g) J above the mean to g J below it, where J is what the slot brings. With
@@ -156,7 +157,7 @@ static double narrowing(double noise, double keep, double u)
 
 /* Set the map of a bath over one interval: its drag and noise since the last slot of the grain. Beside collisions that
  * cool, a slot would bring too little in the steady state, by the fraction (drag x interval)^2/3, so the noise is
- * larger. A torque may give any estimate of T: the noise changes by 1 % at most. */
+ * larger. A torque may give any estimate of T: the noise changes by about 1 % at most. */
 static void make_bath(const gg_md *e, int species, double interval, double u, gg_md_kick_schedule *t)
 {
   const gg_model *m = &e->model;
@@ -166,7 +167,7 @@ static void make_bath(const gg_md *e, int species, double interval, double u, gg
   const gg_relaxation s =
       relaxation_beside_collisions(b->spin_drag[species], interval, exchange_of_spins(m, species) * w);
   const double T = steady_temperature(e), kept = gg_common_relaxation(2 * drag, interval).decay;
-  const bool cooled = drag > 0 && b->noise[species] > 0 && m->shear_rate == 0;
+  const bool cooled = drag > 0 && b->noise[species] > 0 && !gg_model_is_sheared(m);
   const double below = cooled ? fmax(-1, 1 - 2 * drag * T / (m->mass[species] * b->noise[species])) : 0;
   const double more = cooled ? (drag * interval * (1 + kept) / (1 - kept) - 1) * below : 0;
   const double variance = b->noise[species] * r.spread * (1 + more);
@@ -201,7 +202,7 @@ static void choose_interval(gg_md *e, int species)
 static void choose_temperature(gg_md *e)
 {
   const gg_model *m = &e->model;
-  const bool balanced = m->bath.on && m->shear_rate == 0;
+  const bool balanced = m->bath.on && !gg_model_is_sheared(m);
   const double hot = fmax(m->temperature0, balanced ? gg_common_thermostat_balance(m, 0) : 0);
   e->k.kick_temperature = fmax(e->k.kick_temperature, hot);
 }
@@ -254,7 +255,7 @@ void gg_md_kicks_begin(gg_md *e)
   e->k.next_kick = gg_md_compensates(e) ? gg_md_compensation_interval(e) : INFINITY;
   if (!gg_md_has_kicks(e)) return;
   for (int s = 0; s < e->model.n_species; s++) {
-    e->k.kick[s].number = 0;
+    e->k.kick[s].number = 0; /* so that intervals are those of a gas that may relax */
     choose_interval(e, s);
     e->k.kick[s].at = 0.5 * e->kicks.schedule[s].interval;
   }
@@ -360,7 +361,7 @@ void gg_md_kick(gg_md *e)
   }
   next->at += t->interval * (0.5 + gg_rng_uniform(&e->k.rng));
   next->number++;
-  if (next->number == settled_at(t) && e->model.bath.on && e->model.shear_rate == 0) choose_interval(e, s);
+  if (next->number == settled_at(t) && e->model.bath.on && !gg_model_is_sheared(&e->model)) choose_interval(e, s);
   if (e->n > CACHED) prefetch(e, t, next->number + AHEAD);
   e->k.next_kick = e->k.kick[due(e)].at;
 }

@@ -100,5 +100,4 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   describe(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   describe_search(m, line, context);
   describe_threads(m, line, context);
-  describe(line, context, "collision sums", "while stresses are measured; else only counts");
 }

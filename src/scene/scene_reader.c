@@ -99,7 +99,7 @@ static gg_status reject_syntax(const gg_scene_reader *r, const yaml_parser_t *pa
     return gg_scene_reject_text(r, 0, "is not a scene: no YAML text (%s at byte %zu)", problem, parser->problem_offset);
   if (parser->unread && *parser->buffer.pointer == '\t')
     return gg_scene_reject_text(r, line, "is not YAML: a tab cannot indent; use blanks");
-  if (parser->error == YAML_SCANNER_ERROR && context) line = parser->context_mark.line + 1; /* an open quote begins */
+  if (parser->error == YAML_SCANNER_ERROR && context) line = parser->context_mark.line + 1; /* what is open begins */
   return gg_scene_reject_text(r, line, "is not YAML: %s%s%s", problem, context ? " " : "", context ? context : "");
 }
 

@@ -85,7 +85,7 @@ typedef struct gg_dsmc_pass {
   uint64_t tried; /* candidate pairs of grains */
   uint64_t collisions, overflows, clamped;
   double largest;            /* largest g_n of a candidate */
-  double stress[3][3], loss; /* if they are summed; loss: of all energy, kicks included */
+  double stress[3][3], loss; /* stress: of Enskog's equation; loss: of all energy, kicks included */
   double given;              /* by kicks */
 } gg_dsmc_pass;
 

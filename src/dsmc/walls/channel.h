@@ -55,7 +55,7 @@ typedef struct gg_dsmc_channel_cells {
   double *mean;    /* [n x species]: mean number of grains, over about a thermal flight of a diameter */
   double *hits;    /* [n]: grains that collided since the last measurement */
   double *chi;     /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b + 1 */
-  double *filled;  /* [7 n + reach + 18]: local solid fraction, by set_chi */
+  double *filled;  /* [7 n, and more for extend_mean]: local solid fraction, by set_chi */
   double *kernel;  /* [species x (reach + 1)]: fraction of a cell's grains that fills a slice so many half cells away */
   gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, with N grains in the partner's cell; of g_n for
                                  the first cell of a block */
