@@ -71,7 +71,7 @@ static void each_pair_of_species_has_its_pressure(void **state)
   gg_scene s =
       mixture(GG_EQUILIBRIUM, 0.3, 1, -1, (gg_species){0.4, 1, 1, 0.4, 1, 0}, (gg_species){0.6, 0.5, 0.2, 0.4, 1, 0}, 20000);
   gg_model m = lab_model(&s);
-  gg_engine *g = lab_engine(&m, 9);
+  gg_engine *g = lab_engine(&m, 8);
   lab_mean share[GG_PAIRS] = {0};
   gg_collision_sums t;
   lab_advance(g, INFINITY, 10 * (uint64_t)m.n);
