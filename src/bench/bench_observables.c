@@ -94,10 +94,9 @@ static gg_status measure_cost(const gg_scene *scene, const gg_observable *o, dou
                               cost_of_observable *cost, gg_error *err)
 {
   timed_run c[2] = {0};
-  bool itself = o->flag == GG_MEASURE_RHEOLOGY;
   gg_status status = start(&c[0], scene, GG_MEASURE_RHEOLOGY, warmup, err);
   if (status == GG_OK) status = start(&c[1], scene, GG_MEASURE_RHEOLOGY | o->flag, warmup, err);
-  if (status == GG_OK) c[0].bare = itself;
+  c[0].bare = o->flag == GG_MEASURE_RHEOLOGY;
   if (status == GG_OK) status = compare(c, repeats < MOST_REPEATS ? repeats : MOST_REPEATS, seconds, cost, err);
   for (int k = 0; k < 2; k++)
     if (c[k].replica.engine) gg_run_replica_clear(&c[k].replica);

@@ -17,7 +17,7 @@ static double crowding(const gg_model *m)
  * a collision, in a dilute gas less. The more energy collisions lose, the more kicks there are (md/kicks.c). */
 static double cost_of_kicks(const gg_model *m)
 {
-  const bool sheared = m->shear_rate != 0;
+  const bool sheared = gg_model_is_sheared(m);
   const double rate = gg_common_model_collision_rate(m, m->temperature0);
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
